@@ -1,0 +1,39 @@
+#pragma once
+
+#include <tendril/base/types.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tendril::bind {
+
+/// 8-bit red, green, blue, alpha.
+using Color = std::array<std::uint8_t, 4>;
+
+/// A polygon soup on flat arrays, with the attributes OFF and PLY files carry. It makes no promise on manifoldness or
+/// orientation: inspect() in inspect.h reports those.
+///
+/// Face f has the corners `corners[face_begin[f] .. face_begin[f + 1])`, indices into `points`. `face_begin` has one
+/// entry more than there are faces, and starts with 0; a mesh without faces has `face_begin == {0}`.
+struct PolygonMesh {
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> face_begin{0};
+  std::vector<std::uint32_t> corners;
+
+  // Attributes: empty when the file has none, else one entry per point or per face.
+  std::vector<Vec3> point_normals;
+  std::vector<Color> point_colors;
+  std::vector<Color> face_colors;
+
+  std::size_t face_count() const { return face_begin.size() - 1; }
+  std::span<const std::uint32_t> face(std::size_t f) const {
+    return std::span(corners).subspan(face_begin[f], face_begin[f + 1] - face_begin[f]);
+  }
+};
+
+/// Diagonal of the axis-aligned bounding box of the points; 0 for none. The "size" tolerances are relative to.
+double bounding_diagonal(Points points);
+
+}  // namespace tendril::bind
