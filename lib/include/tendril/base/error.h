@@ -3,8 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-/// Errors are of two kinds. Bad input throws one of the exceptions below, before anything is changed or written. A
-/// numerical outcome (not converged, degenerate, too stiff) is never thrown: it is a status in the result.
+/// Errors are of two kinds. Bad input throws one of the exceptions below, before anything is changed or
+/// written. A numerical outcome (not converged, degenerate, too stiff) is never thrown: it is a status in the
+/// result.
 namespace tendril {
 
 /// Base of everything the library throws on purpose.

@@ -6,8 +6,8 @@
 
 /// Vectors and spans shared by every module.
 ///
-/// World frame: right-handed, fixed. Units are the caller's own, used consistently: a length, a mass and a time unit;
-/// everything else follows from them. Angles are radians.
+/// World frame: right-handed, fixed. Units are the caller's own, used consistently: a length, a mass and a
+/// time unit; everything else follows from them. Angles are radians.
 namespace tendril {
 
 using Vec3 = Eigen::Vector3d;
@@ -17,8 +17,8 @@ using Mat3 = Eigen::Matrix3d;
 using Points = std::span<const Vec3>;
 using MutablePoints = std::span<Vec3>;
 
-/// True when every coordinate is finite. NaN kills the process inside some geometry kernels, so input is checked once,
-/// where it enters.
+/// True when every coordinate is finite. NaN kills the process inside some geometry kernels, so input is
+/// checked once, where it enters.
 inline bool is_finite(const Vec3& v) {
   return v.allFinite();
 }
