@@ -16,6 +16,8 @@ function(tendril_component)
   target_link_libraries(${target} PUBLIC ${ARG_LINK_PUBLIC} PRIVATE $<BUILD_INTERFACE:tendril_warnings>
                                   INTERFACE ${ARG_LINK_INTERFACE})
 
+  set_property(GLOBAL APPEND PROPERTY TENDRIL_COMPONENTS ${ARG_NAME})
+
   set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tendril)
   install(TARGETS ${target} EXPORT tendril-${ARG_NAME}
     ARCHIVE COMPONENT ${ARG_NAME} LIBRARY COMPONENT ${ARG_NAME}

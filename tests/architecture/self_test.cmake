@@ -1,0 +1,82 @@
+# Proves that check.cmake can fail: a small tree that passes, then one breach at a time, each with the words it must
+# be refused with.   cmake -DWORK=<empty folder> -P self_test.cmake
+cmake_minimum_required(VERSION 3.25)
+set(tree ${WORK}/tree)
+
+function(write_good_tree)
+  file(REMOVE_RECURSE ${tree})
+  file(WRITE ${tree}/lib/include/tendril/base/a.h "#pragma once\n#include <Eigen/Core>\n#include <vector>\n")
+  file(WRITE ${tree}/lib/src/base/a.cpp "#include <tendril/base/a.h>\n")
+  file(WRITE ${tree}/lib/include/tendril/curve/b.h "#pragma once\n#include <tendril/base/a.h>\n")
+  file(WRITE ${tree}/lib/src/curve/b.cpp "#include \"b_detail.h\"\n#include <tendril/curve/b.h>\n")
+  file(WRITE ${tree}/lib/src/curve/b_detail.h "#pragma once\n#include <array>\n")
+  file(WRITE ${tree}/lib/src/dynamics/detail.h "#pragma once\n")
+  file(WRITE ${tree}/bind/include/tendril/bind/c.h "#pragma once\n#include <tendril/dynamics/follower.h>\n")
+  file(WRITE ${tree}/bind/include/tendril/bind/face_graph.h "#pragma once\n#include <CGAL/boost/graph/helpers.h>\n")
+  file(WRITE ${tree}/bind/src/c.cpp "#include <tendril/bind/c.h>\n#include <tendril/curve/b.h>\n")
+  file(GLOB_RECURSE headers ${tree}/lib/include/*.h ${tree}/bind/include/*.h)
+  file(WRITE ${WORK}/header_sets.cmake "set(COMPONENT_FOLDERS lib bind)\nset(PUBLIC_HEADERS \"${headers}\")\n")
+endfunction()
+
+function(run_check result output)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -DROOT=${tree} -DHEADER_SETS=${WORK}/header_sets.cmake ${ARGN}
+            -P ${CMAKE_CURRENT_LIST_DIR}/check.cmake
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  string(REGEX REPLACE "[ \n]+" " " text "${text}")
+  set(${result} ${code} PARENT_SCOPE)
+  set(${output} "${text}" PARENT_SCOPE)
+endfunction()
+
+# breach(FILE TEXT EXPECTED): TEXT added to FILE of the good tree is refused with EXPECTED.
+function(breach file text expected)
+  write_good_tree()
+  file(APPEND ${tree}/${file} "${text}")
+  run_check(code output)
+  string(FIND "${output}" "${expected}" at)
+  if(code EQUAL 0 OR at EQUAL -1)
+    message(FATAL_ERROR "'${text}' in ${file} should be refused with '${expected}', got ${code}: ${output}")
+  endif()
+endfunction()
+
+write_good_tree()
+run_check(code output)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "the good tree is refused: ${output}")
+endif()
+
+breach(lib/include/tendril/base/a.h "#include <tendril/curve/b.h>\n"
+  "lib/include/tendril/base/a.h:4: layer 'base' includes tendril/curve/b.h")
+breach(lib/src/curve/b.cpp "  #  include <tendril/dynamics/follower.h>\n" "b.cpp:3: layer 'curve' includes tendril/dynamics")
+breach(lib/src/curve/b.cpp "#include <tendril/bind/c.h>\n" "layer 'curve' includes tendril/bind/c.h")
+breach(lib/include/tendril/base/a.h "#include <CGAL/Simple_cartesian.h>\n" "layer 'base' includes CGAL/")
+breach(lib/src/base/a.cpp "#include <boost/optional.hpp>\n" "a.cpp:2: layer 'base' includes boost/")
+breach(bind/src/c.cpp "#include <tendril/dynamics/simulation.h>\n" "c.cpp:3: layer 'bind' includes tendril/dynamics/simulation.h")
+breach(bind/src/c.cpp "#include <CGAL/Surface_mesh.h>\n" "layer 'bind' includes CGAL/Surface_mesh.h")
+breach(bind/src/c.cpp "#include <tendril/bind/face_graph.h>\n" "layer 'bind' includes tendril/bind/face_graph.h")
+breach(bind/include/tendril/bind/c.h "#include <CGAL/boost/graph/helpers.h>\n" "c.h:3: layer 'bind' includes CGAL/")
+breach(collision/src/d.cpp "#include <tendril/bind/c.h>\n" "layer 'collision' includes tendril/bind/c.h")
+breach(lib/src/curve/b.cpp "#include \"../dynamics/detail.h\"\n" "layer 'curve' includes ../dynamics/detail.h")
+breach(lib/src/curve/b.cpp "#include \"dynamics/detail.h\"\n" "layer 'curve' includes dynamics/detail.h")
+breach(lib/include/tendril/curve/b.h "#include \"a.h\"\n" "b.h:3: a public header includes \"a.h\" with quotes")
+breach(lib/include/tendril/base/new.h "#pragma once\n" "new.h:1: public header is in no target's FILE_SET")
+breach(lib/src/strange/x.h "#pragma once\n" "x.h:1: no layer of layers.txt stands in this folder")
+string(REPEAT "//\n" 111 long_text)
+breach(lib/include/tendril/base/a.h "${long_text}" "public header of 114 lines")
+string(REPEAT "//\n" 401 long_text)
+breach(tests/x_test.cpp "${long_text}" "source file of 401 lines")
+string(CONCAT todo "TO" "DO")  # in pieces, since this file is checked too
+string(CONCAT fixme "FIX" "ME")
+breach(examples/x.cpp "int a;  // ${todo}\n" "examples/x.cpp:1: '${todo}'")
+breach(bind/CMakeLists.txt "# ${fixme}\n" "bind/CMakeLists.txt:1: '${fixme}'")
+
+# A list of layers that points down the list is refused: this is what keeps it free of cycles.
+write_good_tree()
+file(READ ${CMAKE_CURRENT_LIST_DIR}/layers.txt layers)
+string(REPLACE "curve base Eigen std\ndynamics" "curve base dynamics Eigen std\ndynamics" layers "${layers}")
+file(WRITE ${WORK}/layers.txt "${layers}")
+run_check(code output -DLAYERS=${WORK}/layers.txt)
+if(code EQUAL 0 OR NOT output MATCHES "layer 'curve' names 'dynamics', which stands below it")
+  message(FATAL_ERROR "an upward arrow in layers.txt should be refused, got ${code}: ${output}")
+endif()
+message(NOTICE "every breach was refused with its own words")
