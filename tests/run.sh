@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12), builds and tests. The exit code is ctest's.
+#   tests/run.sh              the short tests
+#   tests/run.sh --long       the long ones too
+#   tests/run.sh --sanitize   in a build with the address and undefined-behaviour sanitizers
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=release
+labels='^short$'
+for argument in "$@"; do
+  case $argument in
+    --long) labels='^(short|long)$' ;;
+    --sanitize) preset=sanitize ;;
+    *) sed -n '2,5s/^# //p' "$0" >&2; exit 2 ;;
+  esac
+done
+
+. .cmake/packages.sh
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}"
+bash .cmake/cgal-meshes.sh build/cgal-meshes
+cmake --preset "$preset" -Wno-dev -DTENDRIL_TESTS=ON
+cmake --build --preset "$preset"
+ctest --preset "$preset" --label-regex "$labels" --parallel "$(nproc)" --no-tests=error </dev/null
