@@ -1,0 +1,25 @@
+#pragma once
+
+#include <tendril/curve/curve_pair.h>
+
+namespace tendril {
+
+/// A point in the axial space of a curve-pair (thesis 2.2): s = c(t) + u l_x(t) + v l_y(t) + w l_z(t),
+/// lengths in the unit of the curve. At a normal projection w is 0 up to rounding; it is what places points
+/// beyond the two ends, at a kink and at a point of zero speed, and is kept everywhere so that the rest shape
+/// comes back for any t.
+struct AxialPoint {
+  double t = 0.0;
+  double u = 0.0;
+  double v = 0.0;
+  double w = 0.0;
+};
+
+/// The record of `point` at the parameter t (clamped to the domain), by dot products with the frame at t.
+/// Exact inverse of from_axial on the same curve-pair up to rounding, whatever the frame's status.
+AxialPoint to_axial(const CurvePair& pair, double t, const Vec3& point);
+
+/// The point of the record on a curve-pair, usually one that has moved since.
+Vec3 from_axial(const CurvePair& pair, const AxialPoint& record);
+
+}  // namespace tendril

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <tendril/curve/bspline.h>
+
+#include <vector>
+
+namespace tendril {
+
+/// How parameters r_k in [0, 1] are given to the points a curve passes through (thesis 3.2.1).
+enum class Parametrisation {
+  uniform,       ///< r_k = k / n
+  chord_length,  ///< steps as |p_k - p_{k-1}|
+  centripetal,   ///< steps as |p_k - p_{k-1}|^(1/2) (thesis 3.8, 3.9)
+  universal,     ///< uniform clamped knots; r_k where the k-th basis function is largest
+};
+
+/// Interpolation of n + 1 points by a clamped B-spline. Parameters and knots come from the *rest* positions
+/// and are frozen: the matrix N_{i,p}(r_k) is factored once, every later set of points is one banded solve,
+/// and what is bound at a parameter does not slide. Knots by averaging p consecutive parameters (thesis 3.10
+/// with its lost 1/p), except for universal parameters, whose knots are uniform.
+class Interpolator {
+ public:
+  /// \param rest  more than `degree` finite points, neighbours distinct for the two chord methods; else
+  /// InvalidInput
+  Interpolator(int degree, Points rest, Parametrisation how = Parametrisation::centripetal);
+
+  const KnotVector& knots() const { return knots_; }
+  const std::vector<double>& parameters() const { return parameters_; }
+
+  /// Control points u with sum_i N_i(r_k) u_i = points_k. Gaussian elimination without pivoting: the matrix
+  /// is totally positive. O(n p), no allocation beyond the result.
+  std::vector<Vec3> solve(Points points) const;
+
+ private:
+  double& at(std::size_t row, std::size_t column) { return band_[row * width() + column + half() - row]; }
+  double at(std::size_t row, std::size_t column) const {
+    return band_[row * width() + column + half() - row];
+  }
+  std::size_t half() const { return static_cast<std::size_t>(knots_.degree()); }
+  std::size_t width() const { return 2 * half() + 1; }
+  void factor();
+
+  std::vector<double> parameters_;
+  KnotVector knots_;
+  std::vector<double> band_;  ///< rows of the matrix about the diagonal, then its LU factors
+};
+
+}  // namespace tendril

@@ -1,0 +1,64 @@
+#include <tendril/curve/curve_pair.h>
+
+namespace tendril {
+namespace {
+
+constexpr double kZeroSpeed = 1e-14;
+
+}  // namespace
+
+CurvePair::CurvePair(const KnotVector& knots, std::vector<Vec3> primary, std::vector<Vec3> orientation)
+    : primary_(knots, std::move(primary)), orientation_(knots, std::move(orientation)) {
+  measure();
+}
+
+void CurvePair::set_control_points(Points primary, Points orientation) {
+  primary_.set_control_points(primary);
+  orientation_.set_control_points(orientation);
+  measure();
+}
+
+void CurvePair::measure() {
+  Vec3 low = primary_.control_points().front();
+  Vec3 high = low;
+  for (const Vec3& u : primary_.control_points()) {
+    low = low.cwiseMin(u);
+    high = high.cwiseMax(u);
+  }
+  least_speed_ = kZeroSpeed * (high - low).norm() / (knots().end() - knots().start());
+}
+
+CurveFrame CurvePair::frame(double t) const {
+  return frame(knots().basis(t, 1), t);
+}
+
+CurveFrame CurvePair::frame(const Basis& basis, double t) const {
+  const int p = primary_.degree();
+  CurveFrame result;
+  result.origin = combine(basis, p, primary_.control_points());
+  const Vec3 velocity = combine(basis, p, primary_.control_points(), 1);
+  const double speed = velocity.norm();
+  const bool moving = speed > least_speed_;
+  const Vec3 tangent = moving ? Vec3(velocity / speed) : tangent_at_zero_speed(t);
+  const FrameChoice choice =
+      frame_towards(tangent, combine(basis, p, orientation_.control_points()) - result.origin);
+  result.frame = choice.frame;
+  result.sine = choice.sine;
+  result.status = moving ? choice.status : FrameStatus::zero_speed;
+  return result;
+}
+
+Vec3 CurvePair::tangent_at_zero_speed(double t) const {
+  // c'(t + h) = c'' h + c''' h^2 / 2: looking forward except at the end, where the curve arrives from behind.
+  const double side = t < knots().end() ? 1.0 : -1.0;
+  const double length = knots().end() - knots().start();
+  double scale = length * side;
+  for (int order = 2; order <= kMaxDerivative; ++order, scale *= length * side) {
+    const Vec3 derivative = primary_.derivative(t, order) * scale;
+    if (derivative.norm() > least_speed_ * length) return derivative.normalized();
+  }
+  const Vec3 chord = primary_.control_points().back() - primary_.control_points().front();
+  return chord.norm() > 0.0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitZ());
+}
+
+}  // namespace tendril
