@@ -1,0 +1,57 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <array>
+
+namespace tendril {
+
+/// The embedded Runge-Kutta pair of Cash and Karp (1990), orders 5 and 4, six stages (thesis 3.30 to 3.32 and
+/// Table 1 with its misprints mended). Row sums of b equal a; c and c_star each sum to 1.
+struct CashKarpTableau {
+  static constexpr std::array<double, 6> a{0.0, 1.0 / 5, 3.0 / 10, 3.0 / 5, 1.0, 7.0 / 8};
+  static constexpr std::array<std::array<double, 5>, 6> b{{
+      {},
+      {1.0 / 5},
+      {3.0 / 40, 9.0 / 40},
+      {3.0 / 10, -9.0 / 10, 6.0 / 5},
+      {-11.0 / 54, 5.0 / 2, -70.0 / 27, 35.0 / 27},
+      {1631.0 / 55296, 175.0 / 512, 575.0 / 13824, 44275.0 / 110592, 253.0 / 4096},
+  }};
+  static constexpr std::array<double, 6> c{37.0 / 378, 0.0, 250.0 / 621, 125.0 / 594, 0.0, 512.0 / 1771};
+  static constexpr std::array<double, 6> c_star{2825.0 / 27648,  0.0,           18575.0 / 48384,
+                                                13525.0 / 55296, 277.0 / 14336, 1.0 / 4};
+};
+
+/// One step of the pair, with its own scratch space.
+class CashKarp {
+ public:
+  explicit CashKarp(const System& system);
+  ~CashKarp();
+
+  /// From `state` over h: the solution of order 5 into `y`, and y - y_star (3.32) into `error`. The state is
+  /// not changed; its derivative is evaluated once and kept for further tries from the same state. On failure
+  /// y and error are not to be used.
+  Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error);
+
+  /// Advances the state by a step of fixed size: step, then System::rebase.
+  Evaluation advance(State& state, double h);
+
+  /// Forgets the kept derivative: call when the state has changed other than by advance or accept.
+  void restart();
+  /// The state has become the last step's result.
+  void accept();
+
+  long evaluations() const { return evaluations_; }
+  System::Workspace& workspace() { return *work_; }
+
+ private:
+  const System& system_;
+  std::unique_ptr<System::Workspace> work_;
+  std::array<Eigen::VectorXd, 6> k_;
+  Eigen::VectorXd stage_;
+  bool first_known_ = false;
+  long evaluations_ = 0;
+};
+
+}  // namespace tendril

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <tendril/curve/curve_pair.h>
+
+#include <span>
+
+namespace tendril {
+
+/// A consumer of steps: what turns the moving curve-pairs into a mesh, a file, a collision watch. Called once
+/// per accepted step or once per output time, never on a step that is later thrown away.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+
+  /// \param pairs  the curve-pairs through the point masses at `time`, one per rod, valid during the call
+  virtual void follow(double time, std::span<const CurvePair> pairs) = 0;
+};
+
+}  // namespace tendril

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <tendril/base/types.h>
+
+#include <span>
+#include <vector>
+
+namespace tendril {
+
+/// Nodes [first, first + count) of the flat arrays belong to one rod; edge i joins the nodes i and i + 1.
+struct NodeRange {
+  std::size_t first, count;
+};
+
+/// What a force may look at: the state of all rods on flat arrays, in the world frame.
+struct StateView {
+  double time;
+  Points p, v;                    ///< positions and velocities of the masses
+  Points t;                       ///< unit tangents
+  std::span<const double> spin;   ///< angular velocity about the tangent; 0 where the twist state is left out
+  std::span<const double> mass;   ///< per node
+  std::span<const double> width;  ///< per edge (index of its first node)
+  std::span<const NodeRange> rods;
+};
+
+/// Where a force adds what it does: a force per node, and a torque per node as a world vector. The torque's
+/// part along the tangent drives the spin, the rest turns the tangent.
+struct Loads {
+  MutablePoints force;
+  MutablePoints torque;
+};
+
+/// An external force. Extension point: derive, and hand it to the system. It must be pure in the state it is
+/// shown (an adaptive step evaluates six stages and may throw them away), and safe to call from several
+/// threads.
+class Force {
+ public:
+  virtual ~Force() = default;
+
+  /// Adds to the loads; never overwrites.
+  virtual void add(const StateView& state, const Loads& loads) const = 0;
+
+  /// True when the force is minus the gradient of energy(); then the energy balance counts its potential
+  /// instead of its work.
+  virtual bool has_energy() const { return false; }
+  virtual double energy(const StateView&) const { return 0.0; }
+
+  /// True when it may turn nodes about their tangents: such a scene keeps its twist state.
+  virtual bool twists() const { return false; }
+
+  /// Times where it jumps; steps end there.
+  virtual std::vector<double> breaks() const { return {}; }
+};
+
+}  // namespace tendril

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <tendril/dynamics/force.h>
+#include <tendril/dynamics/signal.h>
+
+#include <cstdint>
+
+namespace tendril {
+
+/// m g on every mass (thesis 3.17); energy -sum m g.p.
+class Gravity : public Force {
+ public:
+  explicit Gravity(const Vec3& acceleration);
+  void add(const StateView& state, const Loads& loads) const override;
+  bool has_energy() const override { return true; }
+  double energy(const StateView& state) const override;
+
+ private:
+  Vec3 g_;
+};
+
+/// Air that moves: u(x, t) = mean + gust strength along the mean direction, times a sum of waves that the air
+/// carries along, 1/sqrt(waves) sum_k sin(2 pi f_k (t - x.d / |mean|) + phi_k), f_k spread evenly in ratio
+/// over one decade around `gust_frequency`; deterministic by `seed`. With `switched` the whole wind is
+/// multiplied by that signal.
+struct WindOptions {
+  Vec3 mean = Vec3::Zero();     ///< [length / time]
+  double gust = 0.0;            ///< root mean square gust over |mean|, times sqrt(2)
+  double gust_frequency = 1.0;  ///< [1 / time]
+  int waves = 8;
+  std::uint64_t seed = 1;
+  double air_density = 1.2;       ///< [mass / length^3]
+  double normal_drag = 1.2;       ///< coefficient for flow across an edge
+  double tangential_drag = 0.02;  ///< for flow along it
+  Signal switched = Signal::constant(1.0);
+};
+
+/// Drag of the air on every edge (thesis 3.18, as a vector): with w = v_edge - u, split across and along the
+/// edge, -1/2 rho width |e| (C_n |w_n| w_n + C_t |w_t| w_t), half to each end.
+class Wind : public Force {
+ public:
+  explicit Wind(const WindOptions& options);
+  void add(const StateView& state, const Loads& loads) const override;
+  std::vector<double> breaks() const override { return options_.switched.breaks(); }
+  /// Air velocity at a point and time.
+  Vec3 velocity(const Vec3& x, double t) const;
+
+ private:
+  struct Wave {
+    double frequency, phase;
+  };
+  WindOptions options_;
+  std::vector<Wave> waves_;
+};
+
+/// direction times signal(t) on one node of one rod; a force [force] or a torque [torque] fixed in the world
+/// frame.
+class PointLoad : public Force {
+ public:
+  enum class Kind { force, torque };
+  PointLoad(Kind kind, std::size_t rod, std::size_t node, const Vec3& direction, Signal signal);
+  void add(const StateView& state, const Loads& loads) const override;
+  bool has_energy() const override { return kind_ == Kind::force && signal_.is_constant(); }
+  double energy(const StateView& state) const override;
+  bool twists() const override { return kind_ == Kind::torque; }
+  std::vector<double> breaks() const override { return signal_.breaks(); }
+
+ private:
+  Kind kind_;
+  std::size_t rod_, node_;
+  Vec3 direction_;
+  Signal signal_;
+};
+
+/// A spring of rest length 0 that pulls a node towards a point: -K (p - target), energy 1/2 K |p - target|^2.
+class PullTowards : public Force {
+ public:
+  PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
+  void add(const StateView& state, const Loads& loads) const override;
+  bool has_energy() const override { return true; }
+  double energy(const StateView& state) const override;
+
+ private:
+  std::size_t rod_, node_;
+  Vec3 target_;
+  double stiffness_;
+};
+
+}  // namespace tendril

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <tendril/curve/fit.h>
+#include <tendril/dynamics/follower.h>
+#include <tendril/dynamics/system.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace tendril {
+
+/// How a run is controlled. Lengths, velocities, angles and spins have error scales of their own: the rods'
+/// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
+/// and speed / l.
+struct SimulationOptions {
+  double tolerance = 1e-6;             ///< of a step's error, relative to those scales, largest component
+  std::optional<double> first_step;    ///< default: a hundredth of the run, capped by the guard
+  std::optional<double> largest_step;  ///< default: the whole run
+  double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
+  double total_amplification = 0.1;  ///< guard: the same over the whole run
+  long work_limit = 20'000'000;      ///< evaluations of the equations
+  int degree = 3;                    ///< of the curves through the masses (lower for rods of fewer masses)
+  Parametrisation parametrisation = Parametrisation::centripetal;
+};
+
+/// Why a run ended. Only `finished` is success; after any other the state is that of the last good step.
+enum class Stop {
+  finished,
+  cancelled,       ///< the progress callback asked for it
+  too_stiff,       ///< the guard's step would need more evaluations than the work limit
+  work_limit,      ///< the limit was reached on the way
+  step_underflow,  ///< no step large enough to move the clock meets the tolerance
+  not_evaluable,   ///< zero-length edge, fold-back or a number that is not finite, at every step size
+  energy_lost,     ///< the energy balance is off by more than 1e-2 of the largest energy seen
+};
+const char* to_string(Stop stop);
+
+struct Report {
+  Stop stop = Stop::finished;
+  std::string reason;  ///< one sentence with time, rod, node and numbers; empty when finished
+  double time = 0.0;
+  long accepted = 0, rejected = 0, evaluations = 0;
+  double smallest_step = 0.0, largest_step = 0.0;
+  double largest_frequency = 0.0;  ///< last estimate [rad / time]
+  double guard_step = 0.0;         ///< last cap on the step by the guard; infinite when nothing oscillates
+  Energies first, last;
+  double work = 0.0;       ///< by forces without energy, damping and anchors
+  double imbalance = 0.0;  ///< (last - first - work) / largest energy seen
+};
+
+/// Moves a system by Cash-Karp 4(5) with the controller of thesis 3.34 (safety 0.93, exponents 0.2 and 0.25,
+/// factor bounded to [0.2, 5]) under a guard: the pair amplifies undamped oscillations (|R(iy)| - 1 = y^6 /
+/// 7200), so the step is capped by an estimate of the largest frequency. Same scene, same bits.
+class Simulation {
+ public:
+  enum class When { accepted_step, output };
+
+  /// \param system  kept by reference
+  Simulation(const System& system, State start, const SimulationOptions& options = {});
+  ~Simulation();
+
+  /// \param follower  kept by reference; followers are called in the order they were added
+  void add(Follower& follower, When when);
+
+  /// Called after every accepted step with the time reached; false cancels.
+  void on_progress(std::function<bool(double time)> progress);
+
+  /// Runs on to time `until`, calling followers at the start (output), at each of `outputs` (ascending,
+  /// within the run) and at accepted steps. May be called again to go on.
+  Report run(double until, std::span<const double> outputs = {});
+
+  const State& state() const;
+  /// The curve-pairs at the present state, one per rod.
+  std::span<const CurvePair> pairs() const;
+  /// Parameters of the masses on their rod's curve.
+  std::span<const double> parameters(std::size_t rod) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace tendril
