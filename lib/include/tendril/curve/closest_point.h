@@ -1,0 +1,67 @@
+#pragma once
+
+#include <tendril/curve/bspline.h>
+
+#include <memory>
+
+namespace tendril {
+
+/// Where on the curve a nearest point lies.
+enum class ProjectionKind {
+  interior,  ///< the offset is orthogonal to the tangent
+  start,     ///< t is the start of the domain
+  end,       ///< t is the end of the domain
+  joint      ///< an interior knot where the distance has a kink, or a point where the curve's speed is zero
+};
+
+/// A nearest point c(t) of a point p, and what is known about it.
+struct Projection {
+  double t;         ///< in the curve's domain
+  Vec3 point;       ///< BSpline::value(t), to the last bit
+  double distance;  ///< |point - p|
+  ProjectionKind kind;
+  /// 1 - curvature . offset = ((c - p) . c')' / |c'|^2 at t (the right-hand side at a knot). Positive at a
+  /// regular minimum, 0 at a focal point (centre of curvature); 0 by convention where the speed is zero.
+  double lambda;
+  /// Proven: distance - gap <= true minimum <= distance. Same unit as distance.
+  double gap;
+};
+
+/// Nearest point on a B-spline, for every finite point: ends, joints, points of zero speed and overlaps
+/// included.
+///
+/// Branch and bound with a certificate. Each span is cut into Bezier sub-pieces held in a binary tree of
+/// capsules (chord and radius, by the convex hull property). On a sub-piece the squared distance is a
+/// polynomial of degree 2 p, whose Bernstein coefficients are formed from control points *relative to p*, so
+/// that their rounding errors scale with the local distance and not with the origin's. A sub-piece is dropped
+/// when a forward error bound shows it to be farther than a distance already attained; it is settled when its
+/// coefficients prove it monotone, strictly convex (one root, by safeguarded Newton) or constant to 1e-14 of
+/// the size; otherwise it is halved. All candidates are compared by the distance evaluated at t itself.
+///
+/// Size below is the diagonal of the control points' bounding box plus the distance of the point to it.
+/// Accuracy: distance exceeds the true minimum by at most `gap`, which stays near 1e-14 of the size (plus
+/// rounding relative to the largest coordinate of a curve far from the origin). Equal distances: the smallest
+/// t wins. Coordinates up to 1e150; squares must not overflow.
+///
+/// Cost: O(log spans) for a point near the curve compared with its other branches, no allocation. Immutable
+/// after construction and cheap to copy; may be shared between threads.
+class CurveProjector {
+ public:
+  explicit CurveProjector(const BSpline& curve);
+
+  /// InvalidInput when p is not finite or beyond 1e150.
+  Projection nearest(const Vec3& p) const;
+
+  /// Same result, bit for bit; `hint` is a parameter thought to be close to it (a neighbour's), which bounds
+  /// the search from the start. Clamped to the domain; a NaN is InvalidInput.
+  Projection nearest(const Vec3& p, double hint) const;
+
+  const BSpline& curve() const;
+
+  struct Data;  ///< what is precomputed; private to the implementation
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace tendril
