@@ -1,6 +1,58 @@
+#include <tendril/base/error.h>
 #include <tendril/bind/polygon_mesh.h>
 
+#include <string>
+
 namespace tendril::bind {
+namespace {
+
+[[noreturn]] void fail(const char* array, std::size_t i, const std::string& reason,
+                       const std::string& expected) {
+  throw InvalidInput("PolygonMesh: " + std::string(array) + "[" + std::to_string(i) + "]", reason, expected);
+}
+
+void require_finite(const std::vector<Vec3>& vectors, const char* array) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    if (!is_finite(vectors[i])) fail(array, i, "a value that is not finite", "finite numbers");
+  }
+}
+
+void require_size(std::size_t size, std::size_t items, const char* array) {
+  if (size == 0 || size == items) return;
+  throw InvalidInput("PolygonMesh: " + std::string(array), std::to_string(size) + " entries",
+                     "none or " + std::to_string(items));
+}
+
+void require_faces(const PolygonMesh& mesh) {
+  const auto& begin = mesh.face_begin;
+  if (begin.empty() || begin.front() != 0) fail("face_begin", 0, "not 0 or missing", "0");
+  for (std::size_t f = 0; f + 1 < begin.size(); ++f) {
+    if (begin[f + 1] < begin[f] || begin[f + 1] - begin[f] < 3) {
+      fail("face_begin", f + 1, std::to_string(begin[f + 1]) + " after " + std::to_string(begin[f]),
+           "at least 3 corners per face");
+    }
+  }
+  if (begin.back() != mesh.corners.size()) {
+    fail("face_begin", begin.size() - 1, std::to_string(begin.back()),
+         std::to_string(mesh.corners.size()) + ", the number of corners");
+  }
+}
+
+}  // namespace
+
+void require_valid(const PolygonMesh& mesh) {
+  require_finite(mesh.points, "points");
+  require_finite(mesh.point_normals, "point_normals");
+  require_size(mesh.point_normals.size(), mesh.points.size(), "point_normals");
+  require_size(mesh.point_colors.size(), mesh.points.size(), "point_colors");
+  require_faces(mesh);
+  require_size(mesh.face_colors.size(), mesh.face_count(), "face_colors");
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    if (mesh.corners[c] < mesh.points.size()) continue;
+    fail("corners", c, "index " + std::to_string(mesh.corners[c]),
+         "an index below " + std::to_string(mesh.points.size()));
+  }
+}
 
 double bounding_diagonal(Points points) {
   if (points.empty()) return 0.0;

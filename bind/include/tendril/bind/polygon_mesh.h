@@ -12,11 +12,11 @@ namespace tendril::bind {
 /// 8-bit red, green, blue, alpha.
 using Color = std::array<std::uint8_t, 4>;
 
-/// A polygon soup on flat arrays, with the attributes OFF and PLY files carry. It makes no promise on manifoldness or
-/// orientation: inspect() in inspect.h reports those.
+/// A polygon soup on flat arrays, with the attributes OFF and PLY files carry. It makes no promise on
+/// manifoldness or orientation: inspect() in inspect.h reports those.
 ///
-/// Face f has the corners `corners[face_begin[f] .. face_begin[f + 1])`, indices into `points`. `face_begin` has one
-/// entry more than there are faces, and starts with 0; a mesh without faces has `face_begin == {0}`.
+/// Face f has the corners `corners[face_begin[f] .. face_begin[f + 1])`, indices into `points`. `face_begin`
+/// has one entry more than there are faces, and starts with 0; a mesh without faces has `face_begin == {0}`.
 struct PolygonMesh {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> face_begin{0};
@@ -33,7 +33,14 @@ struct PolygonMesh {
   }
 };
 
-/// Diagonal of the axis-aligned bounding box of the points; 0 for none. The "size" tolerances are relative to.
+/// Throws InvalidInput("PolygonMesh: array[i]", ...) unless the arrays fit together: face_begin starts with
+/// 0, grows by at least 3 per face and ends with the number of corners; corners name points that exist;
+/// points and normals are finite; each attribute is empty or has one entry per point or face. O(points +
+/// corners).
+void require_valid(const PolygonMesh& mesh);
+
+/// Diagonal of the axis-aligned bounding box of the points; 0 for none. The "size" tolerances are relative
+/// to.
 double bounding_diagonal(Points points);
 
 }  // namespace tendril::bind

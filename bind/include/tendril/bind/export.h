@@ -1,0 +1,31 @@
+#pragma once
+
+#include <tendril/bind/polygon_mesh.h>
+
+#include <string>
+
+/// Surface meshes to PLY and OFF. What is written and read again by import.h is the same mesh, bit for bit
+/// (signed zeros and subnormals too), with its normals and colors.
+///
+/// All throw InvalidInput, and write nothing, when require_valid(mesh) does.
+namespace tendril::bind {
+
+struct PlyOptions {
+  /// Coordinates and normals in single precision: half the size, for frames that are only looked at. Values
+  /// beyond its range are refused.
+  bool float32 = false;
+};
+
+/// Binary little-endian PLY: x y z [nx ny nz] [red green blue alpha] and lists vertex_indices [red green blue
+/// alpha].
+std::string ply_bytes(const PolygonMesh& mesh, const PlyOptions& options = {});
+
+/// Text OFF, [C][N]OFF when there are colors or normals; each number in its shortest form that reads back
+/// unchanged.
+std::string off_text(const PolygonMesh& mesh);
+
+/// Writes ply_bytes(mesh) or off_text(mesh), as the ending .ply or .off says; another ending throws
+/// InvalidInput. The file is written whole or not at all (FileError).
+void write_mesh(const std::string& path, const PolygonMesh& mesh);
+
+}  // namespace tendril::bind

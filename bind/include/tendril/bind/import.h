@@ -1,0 +1,53 @@
+#pragma once
+
+#include <tendril/bind/polygon_mesh.h>
+
+#include <string>
+#include <string_view>
+
+/// Surface meshes from OFF and PLY.
+///
+/// A file is either read completely or refused; nothing is repaired, merged, reordered or dropped on the way.
+/// What the mesh is like (holes, duplicates, zero area, ...) is the business of inspect() in inspect.h.
+///
+/// Refused with InvalidInput, whose place is "name:line" (text, first line 1) or "name:byte N" (binary, first
+/// byte 0): a number that is not finite or not a number; an index that is negative, fractional or not below
+/// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
+/// that contradicts itself. A face that names a vertex twice is accepted.
+///
+/// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
+/// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
+/// order.
+namespace tendril::bind {
+
+/// Reads a file. The format is told by its first bytes, not by its name.
+/// Throws FileError when it cannot be read, InvalidInput when it is neither OFF nor PLY or malformed.
+PolygonMesh read_mesh(const std::string& path);
+
+/// OFF of Geomview's manual, section "OFF files": text or binary (big-endian), the keyword required, '#'
+/// comments.
+/// - Prefixes N (normals), C (colors) and ST (texture, dropped); each vertex holds point, normal, color,
+/// texture in
+///   this order. 4OFF and nOFF are refused: their points are not points of space.
+/// - Colors are 3 or 4 numbers; a color without alpha is opaque. They are 0..255 when all vertices' (or all
+/// faces')
+///   are whole numbers, else 0..1. A face color of one number is an index into a palette that is not in the
+///   file: it is read and dropped. Faces without a color among faces that have one get Geomview's default,
+///   grey 0.666.
+/// - In text, what follows a vertex's color or a face's corners ends with the line; the rest is free-form.
+/// `name` stands for the file in errors.
+PolygonMesh parse_off(std::string_view bytes, const std::string& name);
+
+/// PLY 1.0 (G. Turk, "The PLY polygon file format", 1994): ascii, binary_little_endian, binary_big_endian.
+/// - Scalar types char .. double, their sized names int8 .. float64, and int64/uint64. Text is read in double
+/// precision
+///   whatever floating type the header gives.
+/// - Used: vertex x y z, nx ny nz, red green blue alpha; face vertex_indices or vertex_index, red green blue
+/// alpha.
+///   Elements stand in any order; other elements and properties are skipped. Colors of floating type are
+///   0..1, of integer type 0..255.
+/// - In text, elements begin on a line of their own.
+/// - Triangle strips are refused: skipping them would lose the surface.
+PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
+
+}  // namespace tendril::bind

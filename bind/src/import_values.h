@@ -1,0 +1,57 @@
+#pragma once
+
+#include <tendril/bind/polygon_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Checks on single values and the building of a mesh, shared by the OFF and PLY readers. `Cursor` is
+/// TextCursor, ByteCursor or anything else with found() and fail(): errors are placed at the value it took
+/// last.
+namespace tendril::bind {
+
+/// Ids are 32-bit, and so are the offsets into the list of corners.
+inline constexpr double id_limit = 4294967295.0;
+
+template <class Cursor>
+double finite(const Cursor& in, double value, const char* what) {
+  if (!std::isfinite(value))
+    in.fail(std::string(what) + " " + in.found() + " is not finite", "a finite number");
+  return value;
+}
+
+template <class Cursor>
+void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
+  if (!(degree >= 3 && degree == std::floor(degree))) {
+    in.fail("a face of " + in.found() + " corners", "a whole number of at least 3 corners");
+  }
+  const double corners = static_cast<double>(mesh.corners.size()) + degree;
+  if (corners > id_limit) in.fail("more than 2^32 - 1 corners in all", "a smaller mesh");
+  mesh.face_begin.push_back(static_cast<std::uint32_t>(corners));
+}
+
+/// \param points  number of points the header promises; the readers fail later when they are not all there
+template <class Cursor>
+void add_corner(const Cursor& in, PolygonMesh& mesh, double index, std::size_t points) {
+  if (!(index >= 0 && index < static_cast<double>(points) && index == std::floor(index))) {
+    in.fail("vertex index " + in.found(), "a whole number in [0, " + std::to_string(points) + ")");
+  }
+  mesh.corners.push_back(static_cast<std::uint32_t>(index));
+}
+
+/// Reserves room for `count` entries, but no more than `bytes` of input can fill at `least` bytes each.
+template <class T>
+void reserve_within(std::vector<T>& list, std::size_t count, std::size_t bytes, std::size_t least) {
+  list.reserve(std::min(count, bytes / least + 1));
+}
+
+inline std::uint8_t to_byte(double value) {
+  return static_cast<std::uint8_t>(std::lround(value));
+}
+
+}  // namespace tendril::bind
