@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 include(${CONFIG})
 set(here ${CMAKE_CURRENT_LIST_DIR})
-set(ENV{CCACHE_NOHASHDIR} 1)  # the same sources are compiled for every case; the folder must not tell them apart
+set(ENV{CCACHE_NOHASHDIR} 1)  # each case compiles the same sources; its folder must not tell them apart
 file(REMOVE_RECURSE ${WORK})
 
 function(run)
