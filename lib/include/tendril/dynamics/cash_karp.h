@@ -27,7 +27,6 @@ struct CashKarpTableau {
 class CashKarp {
  public:
   explicit CashKarp(const System& system);
-  ~CashKarp();
 
   /// From `state` over h: the solution of order 5 into `y`, and y - y_star (3.32) into `error`. The state is
   /// not changed; its derivative is evaluated once and kept for further tries from the same state. On failure
@@ -37,17 +36,15 @@ class CashKarp {
   /// Advances the state by a step of fixed size: step, then System::rebase.
   Evaluation advance(State& state, double h);
 
-  /// Forgets the kept derivative: call when the state has changed other than by advance or accept.
+  /// Forgets the kept derivative: call when the state has changed other than by advance.
   void restart();
-  /// The state has become the last step's result.
-  void accept();
 
   long evaluations() const { return evaluations_; }
   System::Workspace& workspace() { return *work_; }
 
  private:
   const System& system_;
-  std::unique_ptr<System::Workspace> work_;
+  System::WorkspacePtr work_;
   std::array<Eigen::VectorXd, 6> k_;
   Eigen::VectorXd stage_;
   bool first_known_ = false;

@@ -40,6 +40,10 @@ class Force {
   /// Adds to the loads; never overwrites.
   virtual void add(const StateView& state, const Loads& loads) const = 0;
 
+  /// Called once when a system is made: throws InvalidInput when the force names a rod or node that is not
+  /// there.
+  virtual void check(std::span<const NodeRange>) const {}
+
   /// True when the force is minus the gradient of energy(); then the energy balance counts its potential
   /// instead of its work.
   virtual bool has_energy() const { return false; }

@@ -60,6 +60,7 @@ class PointLoad : public Force {
   enum class Kind { force, torque };
   PointLoad(Kind kind, std::size_t rod, std::size_t node, const Vec3& direction, Signal signal);
   void add(const StateView& state, const Loads& loads) const override;
+  void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return kind_ == Kind::force && signal_.is_constant(); }
   double energy(const StateView& state) const override;
   bool twists() const override { return kind_ == Kind::torque; }
@@ -77,6 +78,7 @@ class PullTowards : public Force {
  public:
   PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
   void add(const StateView& state, const Loads& loads) const override;
+  void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
 

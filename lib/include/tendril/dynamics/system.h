@@ -60,7 +60,11 @@ class System {
   System& operator=(System&&) noexcept;
 
   class Workspace;  ///< scratch arrays of one evaluation
-  std::unique_ptr<Workspace> make_workspace() const;
+  struct Release {
+    void operator()(Workspace* work) const;
+  };
+  using WorkspacePtr = std::unique_ptr<Workspace, Release>;
+  WorkspacePtr make_workspace() const;
 
   std::span<const NodeRange> rods() const;
   std::size_t node_count() const;
@@ -97,8 +101,9 @@ class System {
   /// evaluations.
   double largest_frequency(const State& state, int vectors, Workspace& work) const;
 
+  struct Model;  ///< the flat arrays, private to the module
+
  private:
-  struct Model;
   std::unique_ptr<const Model> model_;
 };
 

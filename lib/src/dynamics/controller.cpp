@@ -1,0 +1,267 @@
+#include "controller.h"
+
+#include <tendril/dynamics/stability.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace tendril {
+namespace {
+
+constexpr double kSafety = 0.93;  // thesis 3.34
+constexpr double kShrink = 0.2;   // bounds of the factor
+constexpr double kGrow = 5.0;
+constexpr long kGuardInterval = 64;  // accepted steps between estimates of the largest frequency
+constexpr int kLanczosVectors = 16;
+constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
+constexpr double kEnergyLimit = 1e-2;
+
+const char* describe(Evaluation::Outcome outcome) {
+  switch (outcome) {
+    case Evaluation::Outcome::ok:
+      return "error above the tolerance";
+    case Evaluation::Outcome::zero_edge:
+      return "edge of length 0";
+    case Evaluation::Outcome::fold_back:
+      return "edges folded back on each other";
+    case Evaluation::Outcome::turned_too_far:
+      return "tangent turned more than 126 degrees";
+    case Evaluation::Outcome::not_finite:
+      return "a number that is not finite";
+  }
+  return "";
+}
+
+template <typename... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  (out << ... << parts);
+  return out.str();
+}
+
+}  // namespace
+
+Controller::Controller(const System& system, State start, const SimulationOptions& options)
+    : system_(system), options_(options), state_(std::move(start)), stepper_(system) {
+  for (const Rod& rod : system.scene().rods) {
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) length += (rod.p[i + 1] - rod.p[i]).norm();
+    rod_length_.push_back(length);
+    longest_ = std::max(longest_, length);
+  }
+  for (const auto& force : system.scene().forces)
+    for (const double time : force->breaks()) breaks_.push_back(time);
+  std::sort(breaks_.begin(), breaks_.end());
+  measure_scales();
+  now_ = report_.first = system_.energies(state_, workspace());
+  start_ = state_.time;
+  report_.work = -state_.y[state_.y.size() - 1];  // counted from here
+}
+
+void Controller::measure_scales() {
+  Eigen::VectorXd dy;
+  ++other_evaluations_;
+  const auto n = static_cast<Eigen::Index>(system_.node_count());
+  double moved = 0.0;
+  double mass = 0.0;
+  if (system_.derivative(state_, state_.time, state_.y, dy, workspace()).ok()) {
+    Eigen::Index i = 0;
+    for (const Rod& rod : system_.scene().rods)
+      for (const double m : rod.mass) {
+        moved += m * dy.segment<3>(3 * n + 3 * i).norm();
+        mass += m;
+        ++i;
+      }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) speed_ = std::max(speed_, state_.y.segment<3>(3 * n + 3 * i).norm());
+  if (mass > 0.0) speed_ = std::max(speed_, std::sqrt(moved / mass * longest_));
+  energy_scale_ = 1e-3 * mass * speed_ * speed_;
+}
+
+void Controller::begin(double until) {
+  until_ = until;
+  ended_ = false;
+  report_.stop = Stop::finished;
+  report_.reason.clear();
+  since_guard_ = kGuardInterval;
+  const double run = until - state_.time;
+  if (h_ == 0.0) h_ = options_.first_step.value_or(run / 100);
+}
+
+void Controller::guard() {
+  since_guard_ = 0;
+  other_evaluations_ += 2 * kLanczosVectors;
+  const double frequency = system_.largest_frequency(state_, kLanczosVectors, workspace());
+  report_.largest_frequency = frequency;
+  if (std::abs(frequency - guard_frequency_) > 0.01 * guard_frequency_) {
+    guard_frequency_ = frequency;
+    double alpha = std::numeric_limits<double>::infinity();
+    double beta = alpha;
+    double most_beta = 0.0;
+    for (const Rod& rod : system_.scene().rods) {
+      alpha = std::min(alpha, rod.mass_damping);
+      beta = std::min(beta, rod.viscosity);
+      most_beta = std::max(most_beta, rod.viscosity);
+    }
+    const GuardLimits limits{options_.amplification, options_.total_amplification, until_ - start_};
+    // Where rods differ, the least damped decides on growth and the most viscous on the real axis.
+    report_.guard_step =
+        std::min(guard_step(frequency, alpha, beta, limits), guard_step(frequency, alpha, most_beta, limits));
+  }
+  const double needed = 6.0 * (until_ - state_.time) / report_.guard_step;
+  const double left = static_cast<double>(options_.work_limit - stepper_.evaluations() - other_evaluations_);
+  if (needed > left)
+    stop(Stop::too_stiff,
+         sentence("at time ", state_.time, " the fastest motion has ", frequency,
+                  " rad per time unit, which caps the step at ", report_.guard_step,
+                  ": the rest of the run would need about ", needed, " evaluations and ", left, " are left"));
+}
+
+Controller::Aim Controller::aim(double target) {
+  double h = std::min({h_, report_.guard_step, options_.largest_step.value_or(until_ - start_)});
+  const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), state_.time);
+  const bool break_first = next != breaks_.end() && *next <= target;
+  if (break_first) target = *next;
+  const double left = target - state_.time;
+  if (h >= left * (1.0 - 1e-10)) return {left, target, break_first};
+  // Two equal steps rather than one and a crumb.
+  if (2.0 * h > left) h = 0.5 * left;
+  return {h, state_.time + h, false};
+}
+
+bool Controller::step_towards(double target) {
+  if (since_guard_ >= kGuardInterval) guard();
+  Evaluation last;
+  while (!ended_) {
+    if (stepper_.evaluations() + other_evaluations_ >= options_.work_limit) {
+      stop(Stop::work_limit, sentence("at time ", state_.time, " the limit of ", options_.work_limit,
+                                      " evaluations was reached"));
+      break;
+    }
+    const Aim at = aim(target);
+    // Before a jump the stages must not see what comes after it: the step ends just before.
+    const double h = at.at_break ? std::nextafter(at.time, state_.time) - state_.time : at.h;
+    if (!(state_.time + h > state_.time)) {
+      // Nothing between here and the jump.
+      state_.time = at.time;
+      stepper_.restart();
+      if (at.at_break) return true;
+      return reject(at, 0.0, last);
+    }
+    last = stepper_.step(state_, h, y_, error_);
+    const double error = last.ok() ? error_norm(error_) : 0.0;
+    if (last.ok() && error <= 1.0) {
+      State next = state_;
+      next.y.swap(y_);
+      next.time = at.time;
+      last = system_.rebase(next, workspace());
+      if (last.ok()) {
+        state_ = std::move(next);
+        accept(at, error);
+        return !ended_;
+      }
+    }
+    const double factor = last.ok() ? std::max(kShrink, kSafety * std::pow(error, -0.25)) : kShrink;
+    if (!reject(at, factor, last)) break;
+  }
+  return false;
+}
+
+bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
+  ++report_.rejected;
+  h_ = aim.h * factor;
+  const double least =
+      16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(state_.time), until_ - start_);
+  if (h_ > least) return true;
+  if (why.ok())
+    stop(Stop::step_underflow,
+         sentence("at time ", state_.time, ": no step above ", least, " meets the tolerance"));
+  else
+    stop(Stop::not_evaluable,
+         sentence("at time ", state_.time, ", ", place(why.node), ": ", describe(why.outcome)));
+  return false;
+}
+
+void Controller::accept(const Aim& aim, double error) {
+  stepper_.restart();
+  ++report_.accepted;
+  ++since_guard_;
+  report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
+  report_.largest_step = std::max(report_.largest_step, aim.h);
+  const double factor = error > 0.0 ? std::min(kGrow, kSafety * std::pow(error, -0.2)) : kGrow;
+  // A step cut short by an output says little about the next one.
+  const bool cut = aim.h < 0.99 * h_;
+  h_ = cut ? std::max(h_ * std::min(factor, 1.0), aim.h * factor) : aim.h * factor;
+  if (aim.at_break) h_ = std::min(h_, aim.h);
+  const auto n = static_cast<Eigen::Index>(system_.node_count());
+  for (Eigen::Index i = 0; i < n; ++i) speed_ = std::max(speed_, state_.y.segment<3>(3 * n + 3 * i).norm());
+  if (report_.accepted % kEnergyInterval == 0) check_energy();
+}
+
+double Controller::error_norm(const Eigen::VectorXd& error) const {
+  const auto n = static_cast<Eigen::Index>(system_.node_count());
+  const auto m = static_cast<Eigen::Index>(system_.twist_count());
+  const double speed = speed_ > 0.0 ? speed_ : longest_;
+  double largest = 0.0;
+  for (std::size_t r = 0; r < rod_length_.size(); ++r) {
+    const auto first = 3 * static_cast<Eigen::Index>(system_.rods()[r].first);
+    const auto count = 3 * static_cast<Eigen::Index>(system_.rods()[r].count);
+    largest = std::max(largest, error.segment(first, count).cwiseAbs().maxCoeff() / rod_length_[r]);
+    largest = std::max(largest, error.segment(3 * n + first, count).cwiseAbs().maxCoeff() / speed);
+  }
+  if (m > 0) {
+    largest = std::max(largest, error.segment(6 * n, m).cwiseAbs().maxCoeff());
+    largest = std::max(largest, error.segment(6 * n + m, m).cwiseAbs().maxCoeff() * longest_ / speed);
+  }
+  return largest / options_.tolerance;
+}
+
+double Controller::imbalance() const {
+  const double work = state_.y[state_.y.size() - 1] + report_.work;
+  return energy_scale_ > 0.0 ? (now_.total() - report_.first.total() - work) / energy_scale_ : 0.0;
+}
+
+void Controller::check_energy() {
+  now_ = system_.energies(state_, workspace());
+  ++other_evaluations_;
+  const double work = state_.y[state_.y.size() - 1] + report_.work;
+  energy_scale_ =
+      std::max(energy_scale_, now_.kinetic + std::abs(now_.elastic - report_.first.elastic) +
+                                  std::abs(now_.potential - report_.first.potential) + std::abs(work));
+  const double off = imbalance();
+  if (!ended_ && std::abs(off) > std::max(kEnergyLimit, options_.tolerance))
+    stop(Stop::energy_lost,
+         sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
+}
+
+void Controller::cancel() {
+  if (!ended_ && state_.time < until_) stop(Stop::cancelled, sentence("cancelled at time ", state_.time));
+}
+
+void Controller::stop(Stop why, std::string reason) {
+  ended_ = true;
+  report_.stop = why;
+  report_.reason = std::move(reason);
+}
+
+std::string Controller::place(std::size_t node) const {
+  std::size_t rod = 0;
+  while (rod + 1 < system_.rods().size() && node >= system_.rods()[rod + 1].first) ++rod;
+  return sentence("rod ", rod, " node ", node - system_.rods()[rod].first);
+}
+
+Report Controller::report() {
+  check_energy();
+  Report result = report_;
+  result.time = state_.time;
+  result.evaluations = stepper_.evaluations() + other_evaluations_;
+  result.last = now_;
+  result.imbalance = imbalance();
+  result.work = state_.y[state_.y.size() - 1] + report_.work;
+  return result;
+}
+
+}  // namespace tendril

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "workspace.h"
+
+namespace tendril {
+
+/// Fills the workspace's kinematics from y. Rates only when asked for.
+Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                      bool rates, System::Workspace& work);
+
+/// Elastic energy at the kinematics, its gradient into g_edge, g_length, g_tangent and g_spin. With `viscous`
+/// (needs rates) every spring but the third acts on strain + beta strain'; returned is still the elastic
+/// energy. \param dissipated  power turned into heat, when viscous
+double elastic(const System::Model& model, const State& reference, bool viscous, System::Workspace& work,
+               double& dissipated);
+
+/// Turns g_edge, g_length and g_tangent into forces on the masses, added to work.force. The tangents of held
+/// frames do not depend on the masses.
+void add_pulled_back(const System::Model& model, System::Workspace& work);
+
+}  // namespace tendril

@@ -1,0 +1,191 @@
+#include "model.h"
+
+#include <tendril/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril {
+namespace {
+
+std::string member(const char* list, std::size_t i, const char* field) {
+  return std::string(list) + "[" + std::to_string(i) + "]." + field;
+}
+
+void check_values(std::size_t rod, const char* field, const std::vector<double>& values, std::size_t count,
+                  bool positive) {
+  const std::string place = member("rods", rod, field);
+  if (values.size() != count)
+    throw InvalidInput(place, std::to_string(values.size()) + " values", std::to_string(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool right = std::isfinite(values[i]) && (positive ? values[i] > 0.0 : values[i] >= 0.0);
+    if (!right)
+      throw InvalidInput(place + "[" + std::to_string(i) + "]", std::to_string(values[i]),
+                         positive ? "a positive number" : "a number >= 0");
+  }
+}
+
+void check_rod(const Rod& rod, std::size_t index) {
+  const std::size_t n = rod.p.size();
+  if (n < 2) throw InvalidInput(member("rods", index, "p"), std::to_string(n) + " masses", "at least 2");
+  if (rod.q.size() != n)
+    throw InvalidInput(member("rods", index, "q"), std::to_string(rod.q.size()) + " masses",
+                       std::to_string(n));
+  for (std::size_t i = 0; i < n; ++i)
+    if (!is_finite(rod.p[i]) || !is_finite(rod.q[i]))
+      throw InvalidInput(member("rods", index, "p or q") + "[" + std::to_string(i) + "]", "not finite",
+                         "finite coordinates");
+  check_values(index, "mass", rod.mass, n, true);
+  check_values(index, "inertia", rod.inertia, n, true);
+  check_values(index, "bend_l", rod.bend_l, n, false);
+  check_values(index, "bend_m", rod.bend_m, n, false);
+  check_values(index, "bend_t", rod.bend_t, n, false);
+  check_values(index, "stretch", rod.stretch, n - 1, false);
+  check_values(index, "twist", rod.twist, n - 1, false);
+  check_values(index, "width", rod.width, n - 1, false);
+  check_values(index, "mass_damping", {rod.mass_damping}, 1, false);
+  check_values(index, "viscosity", {rod.viscosity}, 1, false);
+  const NodeFrames frames = node_frames(rod.p, rod.q);
+  for (std::size_t i = 0; i < n; ++i)
+    if (frames.status[i] != FrameStatus::ok)
+      throw InvalidInput("rods[" + std::to_string(index) + "] node " + std::to_string(i),
+                         "no frame: coinciding or folded-back masses, or an orientation mass on the tangent",
+                         "a rest shape with a frame at every node");
+}
+
+constexpr double kStraight = 1e-9;  // rest angle below which a node counts as straight [rad]
+
+}  // namespace
+
+EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
+  EdgeAngles a{};
+  a.x = e.dot(frame.x);
+  a.y = e.dot(frame.y);
+  a.z = e.dot(frame.z);
+  a.cl = std::sqrt(a.y * a.y + a.z * a.z);
+  a.cm = std::sqrt(a.x * a.x + a.z * a.z);
+  a.st = std::sqrt(a.x * a.x + a.y * a.y);
+  a.l = std::atan2(a.x, a.cl);
+  a.m = std::atan2(a.y, a.cm);
+  a.t = std::atan2(a.st, a.z);
+  return a;
+}
+
+double twist_angle(const Frame& before, const Frame& after) {
+  const Vec3 carried = rotate_smallest(before.z, after.z, before.y);
+  return std::atan2(carried.cross(after.y).dot(after.z), carried.dot(after.y));
+}
+
+System::Model::Model(Scene description) : scene(std::move(description)) {
+  if (scene.rods.empty()) throw InvalidInput("rods", "none", "at least one");
+  for (std::size_t r = 0; r < scene.rods.size(); ++r) {
+    check_rod(scene.rods[r], r);
+    flatten(scene.rods[r]);
+  }
+  place_anchors();
+  for (std::size_t f = 0; f < scene.forces.size(); ++f) {
+    if (!scene.forces[f]) throw InvalidInput("forces[" + std::to_string(f) + "]", "null", "a force");
+    scene.forces[f]->check(rods);
+  }
+  choose_twist();
+}
+
+void System::Model::flatten(const Rod& rod) {
+  const NodeRange range{nodes, rod.p.size()};
+  rods.push_back(range);
+  nodes += range.count;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(rest_p, rod.p);
+  append(mass, rod.mass);
+  append(inertia, rod.inertia);
+  append(bend_l, rod.bend_l);
+  append(bend_m, rod.bend_m);
+  append(bend_t, rod.bend_t);
+  append(stretch, rod.stretch);
+  append(twist, rod.twist);
+  append(width, rod.width);
+  damping.resize(nodes, rod.mass_damping);
+  viscosity.resize(nodes, rod.viscosity);
+  for (auto* edges : {&stretch, &twist, &width, &rest_length, &rest_twist}) edges->resize(nodes, 0.0);
+  for (auto* ends : {&rest_l, &rest_m, &rest_t}) ends->resize(2 * nodes, 0.0);
+
+  const NodeFrames frames = node_frames(rod.p, rod.q);
+  append(rest_frame, frames.frame);
+  for (std::size_t i = 0; i < rod.p.size(); ++i) {
+    const Vec3 d = rod.q[i] - rod.p[i];
+    offset.emplace_back(0.0, d.dot(frames.frame[i].y), d.dot(frames.frame[i].z));
+  }
+  flatten_rest_angles(range);
+}
+
+void System::Model::flatten_rest_angles(const NodeRange& range) {
+  for (std::size_t i = range.first; i + 1 < range.first + range.count; ++i) {
+    const Vec3 edge = rest_p[i + 1] - rest_p[i];
+    rest_length[i] = edge.norm();
+    rest_twist[i] = twist_angle(rest_frame[i], rest_frame[i + 1]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const EdgeAngles a = edge_angles(edge / rest_length[i], rest_frame[i + side]);
+      rest_l[2 * i + side] = a.l;
+      rest_m[2 * i + side] = a.m;
+      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
+      rest_t[2 * i + side] = a.t > kStraight ? a.t : 0.0;
+    }
+  }
+}
+
+void System::Model::place_anchors() {
+  anchor_index.assign(nodes, -1);
+  for (std::size_t a = 0; a < scene.anchors.size(); ++a) {
+    const Anchor& anchor = scene.anchors[a];
+    if (anchor.rod >= rods.size())
+      throw InvalidInput(member("anchors", a, "rod"), std::to_string(anchor.rod),
+                         "less than " + std::to_string(rods.size()));
+    const NodeRange& range = rods[anchor.rod];
+    if (anchor.node >= range.count)
+      throw InvalidInput(member("anchors", a, "node"), std::to_string(anchor.node),
+                         "less than " + std::to_string(range.count));
+    int& slot = anchor_index[range.first + anchor.node];
+    if (slot >= 0)
+      throw InvalidInput(member("anchors", a, "node"), "anchored twice", "at most one anchor a node");
+    slot = static_cast<int>(a);
+  }
+}
+
+std::string System::Model::twist_source(std::size_t r) const {
+  const NodeRange& range = rods[r];
+  if (scene.twist == Scene::Twist::everywhere) return "asked for";
+  if (scene.rods[r].viscosity > 0.0) return "viscosity";
+  for (const auto& force : scene.forces)
+    if (force->twists()) return "a torque";
+  int frames_held = 0;
+  for (const Anchor& anchor : scene.anchors) {
+    if (anchor.rod != r || !anchor.holds_frame) continue;
+    if (anchor.motion) return "a moving frame";
+    ++frames_held;
+  }
+  if (frames_held > 1) return "several held frames";
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    if (bend_l[i] != bend_m[i]) return "anisotropic bending";
+    for (const std::size_t end : {2 * i, 2 * i + 1})
+      if (i + 1 < range.first + range.count && rest_t[end] > 0.0) return "a curved rest shape";
+  }
+  return {};
+}
+
+void System::Model::choose_twist() {
+  twist_index.assign(nodes, -1);
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    if (twist_source(r).empty()) {
+      left_out.push_back(
+          "rods[" + std::to_string(r) +
+          "]: twist state left out: straight and isotropic at rest, and nothing turns it about its axis");
+      continue;
+    }
+    for (std::size_t i = 0; i < rods[r].count; ++i)
+      twist_index[rods[r].first + i] = static_cast<int>(twist_nodes++);
+  }
+  if (scene.forces.empty()) left_out.emplace_back("loads left out: no force in the scene");
+  if (scene.anchors.empty()) left_out.emplace_back("anchors left out: no node is held");
+}
+
+}  // namespace tendril

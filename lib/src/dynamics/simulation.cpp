@@ -1,0 +1,157 @@
+#include <tendril/base/error.h>
+#include <tendril/dynamics/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller.h"
+
+namespace tendril {
+namespace {
+
+std::vector<Interpolator> fits_of(const System& system, const SimulationOptions& options) {
+  std::vector<Interpolator> fits;
+  for (const Rod& rod : system.scene().rods) {
+    const int degree = std::min(options.degree, static_cast<int>(rod.p.size()) - 1);
+    fits.emplace_back(degree, rod.p, options.parametrisation);
+  }
+  return fits;
+}
+
+void check(const SimulationOptions& options) {
+  const auto positive = [](const char* what, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw InvalidInput(what, std::to_string(value), "a positive number");
+  };
+  positive("tolerance", options.tolerance);
+  positive("amplification", options.amplification);
+  positive("total_amplification", options.total_amplification);
+  if (options.first_step) positive("first_step", *options.first_step);
+  if (options.largest_step) positive("largest_step", *options.largest_step);
+  if (options.work_limit < 1)
+    throw InvalidInput("work_limit", std::to_string(options.work_limit), "at least 1");
+  if (options.degree < 1 || options.degree > kMaxDegree)
+    throw InvalidInput("degree", std::to_string(options.degree), "1 to " + std::to_string(kMaxDegree));
+}
+
+}  // namespace
+
+const char* to_string(Stop stop) {
+  switch (stop) {
+    case Stop::finished:
+      return "finished";
+    case Stop::cancelled:
+      return "cancelled";
+    case Stop::too_stiff:
+      return "too_stiff";
+    case Stop::work_limit:
+      return "work_limit";
+    case Stop::step_underflow:
+      return "step_underflow";
+    case Stop::not_evaluable:
+      return "not_evaluable";
+    case Stop::energy_lost:
+      return "energy_lost";
+  }
+  return "unknown";
+}
+
+struct Simulation::Implementation {
+  Implementation(const System& s, State start, const SimulationOptions& o)
+      : system(s), controller(s, std::move(start), o), fits(fits_of(s, o)) {
+    const std::vector<Vec3> q = system.orientation_masses(controller.state(), controller.workspace());
+    for (std::size_t r = 0; r < fits.size(); ++r)
+      pairs.emplace_back(fits[r].knots(), primary(r), orientation(q, r));
+  }
+
+  std::vector<Vec3> primary(std::size_t r) const {
+    const NodeRange& range = system.rods()[r];
+    std::vector<Vec3> p;
+    for (std::size_t i = 0; i < range.count; ++i)
+      p.push_back(controller.state().y.segment<3>(3 * static_cast<Eigen::Index>(range.first + i)));
+    return fits[r].solve(p);
+  }
+  std::vector<Vec3> orientation(const std::vector<Vec3>& q, std::size_t r) const {
+    const NodeRange& range = system.rods()[r];
+    return fits[r].solve(Points(q).subspan(range.first, range.count));
+  }
+
+  void fit() {
+    const std::vector<Vec3> q = system.orientation_masses(controller.state(), controller.workspace());
+    for (std::size_t r = 0; r < fits.size(); ++r) pairs[r].set_control_points(primary(r), orientation(q, r));
+  }
+
+  void tell(When when) {
+    bool fitted = false;
+    for (const auto& [follower, its_when] : followers) {
+      if (its_when != when) continue;
+      if (!fitted) fit();
+      fitted = true;
+      follower->follow(controller.state().time, pairs);
+    }
+  }
+
+  const System& system;
+  Controller controller;
+  std::vector<Interpolator> fits;
+  std::vector<CurvePair> pairs;
+  std::vector<std::pair<Follower*, When>> followers;
+  std::function<bool(double)> progress;
+};
+
+Simulation::Simulation(const System& system, State start, const SimulationOptions& options) {
+  check(options);
+  self_ = std::make_unique<Implementation>(system, std::move(start), options);
+}
+Simulation::~Simulation() = default;
+
+void Simulation::add(Follower& follower, When when) {
+  self_->followers.emplace_back(&follower, when);
+}
+
+void Simulation::on_progress(std::function<bool(double time)> progress) {
+  self_->progress = std::move(progress);
+}
+
+Report Simulation::run(double until, std::span<const double> outputs) {
+  Controller& controller = self_->controller;
+  const double from = controller.state().time;
+  if (!(until >= from) || !std::isfinite(until))
+    throw InvalidInput("until", std::to_string(until), "a time not before " + std::to_string(from));
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!(outputs[i] >= (i > 0 ? outputs[i - 1] : from)) || !(outputs[i] <= until))
+      throw InvalidInput("outputs[" + std::to_string(i) + "]", std::to_string(outputs[i]),
+                         "ascending times within the run");
+
+  controller.begin(until);
+  std::size_t next = 0;
+  const auto tell_outputs = [&] {
+    bool due = false;
+    for (; next < outputs.size() && outputs[next] <= controller.state().time; ++next) due = true;
+    if (due) self_->tell(When::output);
+  };
+  tell_outputs();
+  while (controller.running()) {
+    const double target = next < outputs.size() ? outputs[next] : until;
+    if (!controller.step_towards(target)) break;
+    self_->tell(When::accepted_step);
+    tell_outputs();
+    if (self_->progress && !self_->progress(controller.state().time)) controller.cancel();
+  }
+  self_->fit();
+  return controller.report();
+}
+
+const State& Simulation::state() const {
+  return self_->controller.state();
+}
+
+std::span<const CurvePair> Simulation::pairs() const {
+  return self_->pairs;
+}
+
+std::span<const double> Simulation::parameters(std::size_t rod) const {
+  return self_->fits.at(rod).parameters();
+}
+
+}  // namespace tendril

@@ -1,0 +1,58 @@
+#include <tendril/dynamics/stability.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace tendril {
+namespace {
+
+using Complex = std::complex<double>;
+
+double amplification(const Complex& z) {
+  return std::abs(1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120 + z / 800.0))))));
+}
+
+/// Growth a step beyond 1 of the oscillator's worse root.
+double growth(double w, double alpha, double beta, double h) {
+  const double half = 0.5 * (alpha + beta * w * w);
+  const Complex root = std::sqrt(Complex(half * half - w * w, 0.0));
+  // The larger root first; the other from the product w^2, without cancellation.
+  const Complex fast = -half - root;
+  const Complex slow = fast == 0.0 ? Complex(0.0) : w * w / fast;
+  return std::max(amplification(h * fast), amplification(h * slow)) - 1.0;
+}
+
+bool allowed(double frequency, double alpha, double beta, const GuardLimits& limits, double h) {
+  const double limit = std::min(limits.per_step, limits.whole * h / std::max(limits.duration, h));
+  for (int octave = 0; octave < 12; ++octave)
+    for (int part = 0; part < 4; ++part)
+      if (growth(frequency * std::exp2(-octave - 0.25 * part), alpha, beta, h) > limit) return false;
+  return true;
+}
+
+}  // namespace
+
+double cash_karp_amplification(double re, double im) {
+  return amplification(Complex(re, im));
+}
+
+double guard_step(double frequency, double alpha, double beta, const GuardLimits& limits) {
+  if (!(frequency > 0.0)) return std::numeric_limits<double>::infinity();
+  // Upwards from a step that is surely allowed, in steps of 5 %; then bisection of the last one.
+  const double fastest = frequency + alpha + beta * frequency * frequency;
+  double low = 1e-3 / fastest;
+  double high = low;
+  while (high * frequency < 10.0 && allowed(frequency, alpha, beta, limits, high)) {
+    low = high;
+    high *= 1.05;
+  }
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + high);
+    (allowed(frequency, alpha, beta, limits, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace tendril

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/random.h"
+
+namespace tendril::test {
+
+/// Straight chain of `edges` equal edges along x, orientation towards z.
+inline std::vector<Vec3> straight(int edges, double length) {
+  std::vector<Vec3> p;
+  for (int i = 0; i <= edges; ++i) p.emplace_back(length * i / edges, 0, 0);
+  return p;
+}
+
+/// Straight homogeneous rod of unit length, circular section.
+inline Rod straight_rod(int edges, double young, double radius, double density = 1000.0) {
+  const std::vector<Vec3> p = straight(edges, 1.0);
+  return make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), {young, young / 3, density},
+                  circular_section(radius));
+}
+
+/// A rod with everything uneven: curved and twisted rest shape, springs of all kinds, masses over a decade.
+inline Rod uneven_rod(Random& random, int nodes) {
+  std::vector<Vec3> p{Vec3::Zero()};
+  for (int i = 1; i < nodes; ++i)
+    p.push_back(p.back() + random.uniform(0.5, 1.5) * (Vec3::UnitX() + random.in_cube(0.5)));
+  std::vector<Vec3> q;
+  for (int i = 0; i < nodes; ++i)
+    q.push_back(p[static_cast<std::size_t>(i)] + rotate_about(Vec3::UnitX(), 0.4 * i, Vec3::UnitZ()) +
+                random.in_cube(0.2));
+  Rod rod;
+  rod.p = p;
+  rod.q = q;
+  for (int i = 0; i < nodes; ++i) {
+    rod.mass.push_back(random.uniform(0.2, 2));
+    rod.inertia.push_back(random.uniform(0.05, 0.3));
+    rod.bend_l.push_back(random.uniform(1, 9));
+    rod.bend_m.push_back(random.uniform(1, 9));
+    rod.bend_t.push_back(random.uniform(0.5, 3));
+    if (i + 1 == nodes) continue;
+    rod.stretch.push_back(random.uniform(20, 60));
+    rod.twist.push_back(random.uniform(1, 6));
+    rod.width.push_back(0.2);
+  }
+  return rod;
+}
+
+inline Vec3 at(const Eigen::VectorXd& y, std::size_t node) {
+  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
+}
+
+/// A state away from rest: every mass moved, every director turned; velocities and spins too.
+inline State stirred(const System& system, Random& random, double by) {
+  State state = system.rest_state();
+  const auto n = static_cast<Eigen::Index>(system.node_count());
+  const auto m = static_cast<Eigen::Index>(system.twist_count());
+  for (Eigen::Index i = 0; i < 6 * n + 2 * m; ++i) state.y[i] += random.uniform(-by, by);
+  const auto work = system.make_workspace();
+  if (!system.rebase(state, *work).ok()) throw std::runtime_error("stirred too much");
+  return state;
+}
+
+/// Linear and angular momentum, sum m v and sum p x m v + I w t.
+struct Momentum {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+inline Momentum momentum(const System& system, const State& state) {
+  const auto work = system.make_workspace();
+  const std::vector<Frame> frames = system.frames(state, *work);
+  const auto n = static_cast<Eigen::Index>(system.node_count());
+  const auto m = static_cast<Eigen::Index>(system.twist_count());
+  Momentum sum;
+  std::size_t node = 0;
+  for (const Rod& rod : system.scene().rods)
+    for (std::size_t i = 0; i < rod.p.size(); ++i, ++node) {
+      const auto k = static_cast<Eigen::Index>(node);
+      const Vec3 mv = rod.mass[i] * state.y.segment<3>(3 * n + 3 * k);
+      sum.linear += mv;
+      sum.angular += at(state.y, node).cross(mv);
+      if (m == n) sum.angular += rod.inertia[i] * state.y[6 * n + m + k] * frames[node].z;
+    }
+  return sum;
+}
+
+}  // namespace tendril::test
