@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cmath>
+#include <limits>
 
 namespace tendril::bind {
 namespace {
@@ -61,7 +61,7 @@ std::string ply_header(const PolygonMesh& mesh, bool float32, bool long_lists) {
 }
 
 void require_single_precision(const std::vector<Vec3>& vectors, const char* array) {
-  constexpr double largest = std::numeric_limits<float>::max();
+  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     if (vectors[i].cwiseAbs().maxCoeff() <= largest) continue;
     throw InvalidInput("PolygonMesh: " + std::string(array) + "[" + std::to_string(i) + "]",
