@@ -45,7 +45,7 @@ TEST_P(EveryCurve, NearestIsNotBeatenByTheReference) {
   const CurveProjector projector(curve);
   HardPoints source(curve, projector, 1000 + static_cast<std::uint64_t>(GetParam()));
   std::vector<Vec3> points;
-  for (int i = 0; i < kPoints / 12; ++i) points.push_back(source.next());
+  for (int i = 0; i < (kPoints + 11) / 12; ++i) points.push_back(source.next());
 
   std::vector<Projection> found;
   found.reserve(points.size());
