@@ -111,7 +111,7 @@ TEST(KnotVectorInput, IsRefusedWithThePlace) {
   EXPECT_EQ(place(0, {0, 1}), "degree");
   EXPECT_EQ(place(6, std::vector<double>(14, 0)), "degree");
   EXPECT_EQ(place(2, {0, 0, 0, 1, 1}), "knots");
-  EXPECT_EQ(place(1, {0, 0, NAN, 1, 1}), "knots[2]");
+  EXPECT_EQ(place(1, {0, 0, std::nan(""), 1, 1}), "knots[2]");
   EXPECT_EQ(place(1, {0, 0, 0.5, 0.4, 1, 1}), "knots[3]");
   EXPECT_EQ(place(2, {0, 0, 0.1, 1, 1, 1}), "knots[2]");
   EXPECT_EQ(place(1, {0, 0, 0.5, 0.5, 1, 1}), "knots[2]");

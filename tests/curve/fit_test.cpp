@@ -68,7 +68,7 @@ TEST(FitInput, IsRefusedWithThePlace) {
   EXPECT_THROW(Interpolator(3, twice), InvalidInput);
   EXPECT_NO_THROW(Interpolator(3, twice, Parametrisation::uniform));
   EXPECT_THROW(Interpolator(4, twice, Parametrisation::uniform), InvalidInput);
-  const std::vector<Vec3> bad{{0, 0, 0}, {1, 0, 0}, {NAN, 0, 0}, {2, 0, 0}};
+  const std::vector<Vec3> bad{{0, 0, 0}, {1, 0, 0}, {std::nan(""), 0, 0}, {2, 0, 0}};
   EXPECT_THROW(Interpolator(3, bad), InvalidInput);
   EXPECT_THROW(Interpolator(1, twice, Parametrisation::uniform).solve(Points(twice).first(3)), InvalidInput);
 }

@@ -158,7 +158,7 @@ TEST(Manipulation, TwistTurnsTheNodeFrameByTheAngle) {
   EXPECT_GT(before.frame[1].y.cross(after.frame[1].y).dot(after.frame[1].z), 0.0);
   EXPECT_NEAR((before.frame[0].y - after.frame[0].y).norm(), 0.0, 0.0);
   EXPECT_THROW(twist_point(pair, 3, 1.0), InvalidInput);
-  EXPECT_THROW(move_point(pair, 0, Vec3(NAN, 0, 0)), InvalidInput);
+  EXPECT_THROW(move_point(pair, 0, Vec3(std::nan(""), 0, 0)), InvalidInput);
 }
 
 }  // namespace

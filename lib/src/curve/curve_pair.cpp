@@ -25,7 +25,7 @@ void CurvePair::measure() {
     low = low.cwiseMin(u);
     high = high.cwiseMax(u);
   }
-  least_speed_ = kZeroSpeed * (high - low).norm() / (knots().end() - knots().start());
+  scale_of_speed_ = (high - low).norm() / (knots().end() - knots().start());
 }
 
 CurveFrame CurvePair::frame(double t) const {
@@ -38,7 +38,7 @@ CurveFrame CurvePair::frame(const Basis& basis, double t) const {
   result.origin = combine(basis, p, primary_.control_points());
   const Vec3 velocity = combine(basis, p, primary_.control_points(), 1);
   const double speed = velocity.norm();
-  const bool moving = speed > least_speed_;
+  const bool moving = speed > kZeroSpeed * scale_of_speed_;
   const Vec3 tangent = moving ? Vec3(velocity / speed) : tangent_at_zero_speed(t);
   const FrameChoice choice =
       frame_towards(tangent, combine(basis, p, orientation_.control_points()) - result.origin);
@@ -55,7 +55,7 @@ Vec3 CurvePair::tangent_at_zero_speed(double t) const {
   double scale = length * side;
   for (int order = 2; order <= kMaxDerivative; ++order, scale *= length * side) {
     const Vec3 derivative = primary_.derivative(t, order) * scale;
-    if (derivative.norm() > least_speed_ * length) return derivative.normalized();
+    if (derivative.norm() > kZeroSpeed * scale_of_speed_ * length) return derivative.normalized();
   }
   const Vec3 chord = primary_.control_points().back() - primary_.control_points().front();
   return chord.norm() > 0.0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitZ());

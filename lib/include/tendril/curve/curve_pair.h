@@ -33,8 +33,11 @@ class CurvePair {
   /// the domain.
   CurveFrame frame(double t) const;
 
-  /// Same from a basis row with at least one derivative, evaluated by the caller (or once for all curve-pairs
-  /// on the same knots). Bit for bit what frame(t) gives.
+  /// Diagonal of the primary control polygon per length of the domain: what speeds compare with.
+  double scale_of_speed() const { return scale_of_speed_; }
+
+  /// Same as frame(t) from a basis row with at least one derivative, evaluated by the caller (or once for all
+  /// curve-pairs on the same knots). Bit for bit what frame(t) gives.
   CurveFrame frame(const Basis& basis, double t) const;
 
  private:
@@ -43,7 +46,7 @@ class CurvePair {
 
   BSpline primary_;
   BSpline orientation_;
-  double least_speed_ = 0.0;
+  double scale_of_speed_ = 0.0;
 };
 
 }  // namespace tendril

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <tendril/bind/binding.h>
+#include <tendril/dynamics/follower.h>
+
+namespace tendril::bind {
+
+/// Keeps points on their moving curve-pair: every call of follow updates `out` through the binding.
+class MeshFollower : public Follower {
+ public:
+  /// \param binding  kept by reference
+  /// \param pair     index of the curve-pair among those of the simulation
+  /// \param out      binding.size() points, kept by reference
+  MeshFollower(const Binding& binding, std::size_t pair, MutablePoints out, int threads = 1);
+
+  void follow(double time, std::span<const CurvePair> pairs) override;
+
+  /// Time of the last update, and how many there were.
+  double time() const { return time_; }
+  long updates() const { return updates_; }
+
+ private:
+  const Binding& binding_;
+  std::size_t pair_;
+  MutablePoints out_;
+  int threads_;
+  double time_ = 0.0;
+  long updates_ = 0;
+};
+
+}  // namespace tendril::bind
