@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+/// The subcommands of the program. Exit codes: 0 done; 1 a numerical outcome that is not success, with its
+/// reason; 2 bad input, with its place and what was expected on standard error.
+namespace tendril::runner {
+
+enum ExitCode : int { kDone = 0, kNoSuccess = 1, kBadInput = 2 };
+
+/// A registered subcommand, and what to call when it was asked for.
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+Command run_command(CLI::App& parent);
+Command deform_command(CLI::App& parent);
+Command project_command(CLI::App& parent);
+Command check_command(CLI::App& parent);
+Command render_command(CLI::App& parent);
+
+/// What --threads asks for; 0 means all the machine has.
+int thread_count(int asked);
+
+/// The whole program; what main does.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace tendril::runner

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "draw/view.h"
+
+#include <array>
+
+namespace tendril::runner {
+
+/// A pinhole camera. A pixel's ray goes from `eye` along forward + x tan_x right + y tan_y up, x and y from
+/// -1 to 1.
+struct Camera {
+  Vec3 eye, right, up, forward;
+  double tan_x, tan_y;
+  Vec3 ground_up;  ///< normal of the ground
+  double ground;   ///< its height along the normal
+  Vec3 centre;     ///< of what is looked at
+  double size;     ///< diagonal of its bounding box, positive
+};
+
+/// Gathers all that a sequence of pictures is to show, and places one camera for them all: as near as the
+/// view's direction allows with a margin on every side. The ground goes under the lowest point.
+class CameraFit {
+ public:
+  explicit CameraFit(const ViewOptions& view);
+  void include(Points points);
+  Camera camera() const;
+
+ private:
+  Vec3 right_, up_, forward_, ground_up_;
+  double tan_x_, tan_y_;
+  /// Largest of +-x / tan_x - z and +-y / tan_y - z over the points, coordinates in the camera's axes: how
+  /// far back each side of the picture asks the eye to be.
+  std::array<double, 4> reach_;
+  Vec3 low_, high_;
+  double ground_;
+};
+
+}  // namespace tendril::runner

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "read/json_reader.h"
+
+#include <tendril/dynamics/anchor.h>
+#include <tendril/dynamics/rod.h>
+
+namespace tendril::runner {
+
+/// One entry of a curve-pair's anchors: an anchor for each node it names.
+std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, const Rod& rod);
+
+}  // namespace tendril::runner

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "read/json_reader.h"
+
+#include <tendril/dynamics/rod.h>
+
+namespace tendril::runner {
+
+/// The rod of one entry of curve_pairs: its points (resampled evenly when `nodes` is given), its springs from
+/// the constants or from material and section. Sections that vary along the points vary linearly between
+/// them, and are taken at the nodes for bending and halfway along the edges for stretch, twist and mass.
+Rod read_rod(const JsonNode& curve_pair);
+
+/// Number of a node of a rod; -1 is the last.
+std::size_t read_node(const JsonNode& node, const Rod& rod);
+
+}  // namespace tendril::runner

@@ -1,0 +1,40 @@
+#include "write/json_output.h"
+
+#include <charconv>
+#include <iostream>
+
+namespace tendril::runner {
+
+OrderedJson to_json(const Vec3& v) {
+  return OrderedJson::array({v.x(), v.y(), v.z()});
+}
+
+void print(const OrderedJson& value) {
+  std::cout << value.dump(2, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
+}
+
+std::string shortest(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+const char* to_string(FrameStatus status) {
+  switch (status) {
+    case FrameStatus::ok:
+      return "ok";
+    case FrameStatus::zero_speed:
+      return "zero_speed";
+    case FrameStatus::zero_edge:
+      return "zero_edge";
+    case FrameStatus::fold_back:
+      return "fold_back";
+    case FrameStatus::zero_offset:
+      return "zero_offset";
+    case FrameStatus::offset_along_tangent:
+      return "offset_along_tangent";
+  }
+  return "unknown";
+}
+
+}  // namespace tendril::runner

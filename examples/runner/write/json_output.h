@@ -1,0 +1,24 @@
+#pragma once
+
+#include <tendril/base/types.h>
+#include <tendril/curve/frames.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tendril::runner {
+
+/// Keys stay in the order they were set.
+using OrderedJson = nlohmann::ordered_json;
+
+/// [x, y, z]; numbers in JSON output read back to the same bits.
+OrderedJson to_json(const Vec3& v);
+
+/// Writes the value and a line end to standard output.
+void print(const OrderedJson& value);
+
+/// Shortest text that reads back to the same double, whatever the locale.
+std::string shortest(double value);
+
+const char* to_string(FrameStatus status);
+
+}  // namespace tendril::runner
