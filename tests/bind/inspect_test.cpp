@@ -129,9 +129,13 @@ TEST(Inspect, NonManifoldEdgeAndPoint) {
   add_face(mesh, {3, 1, 4});
   MeshReport report = inspect(mesh);
   EXPECT_EQ(report.non_manifold_edges, (Edges{{1, 3}}));
+  EXPECT_EQ(report.non_manifold_points, (Ids{1, 3}));
   EXPECT_EQ(report.inconsistent_edges, Edges{});
   EXPECT_EQ(report.boundary_edges, 2);
   EXPECT_FALSE(report.is_manifold());
+  // The same with the face too many in front.
+  std::rotate(mesh.corners.begin(), mesh.corners.end() - 3, mesh.corners.end());
+  EXPECT_EQ(inspect(mesh).non_manifold_points, (Ids{1, 3}));
 
   mesh = tetrahedron();
   mesh.points.insert(mesh.points.end(), {{5, 5, 5}, {6, 5, 5}});
@@ -190,15 +194,31 @@ TEST(Inspect, DegenerateFaces) {
   }
 }
 
+/// Rounding leaves such triangles an area that is not exactly zero.
+TEST(Inspect, FindsFacesThatAreFlatUpToRounding) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  PolygonMesh mesh;
+  for (std::uint32_t f = 0; f < 200; ++f) {
+    const Vec3 direction(uniform(random), uniform(random), uniform(random));
+    for (int k = 0; k < 3; ++k) mesh.points.push_back(uniform(random) * direction);
+    add_face(mesh, {3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  EXPECT_EQ(inspect(mesh).degenerate_faces.size(), 200);
+}
+
+TEST(Inspect, ReportsTheFirstOfManyEqualPoints) {
+  const MeshReport report = inspect(mesh_of(std::vector<Vec3>(1000, Vec3(1, 2, 3)), {}));
+  ASSERT_EQ(report.duplicate_points.size(), 999);
+  for (std::uint32_t i = 0; i < 999; ++i) EXPECT_EQ(report.duplicate_points[i], (Duplicate{i + 1, 0}));
+}
+
 TEST(Inspect, ARepeatedPointMakesNoEdgeAndNoFan) {
-  PolygonMesh mesh = tetrahedron();
-  mesh.corners[2] = 2;  // 0 2 2
-  remove_face(mesh, 3);
-  remove_face(mesh, 2);
-  remove_face(mesh, 1);
-  const MeshReport report = inspect(mesh);
-  EXPECT_EQ(report.edges, 1);
+  const MeshReport report = inspect(mesh_of(tetrahedron().points, {{0, 1, 2, 2}, {3, 2, 1, 3}}));
+  EXPECT_EQ(report.edges, 5);
   EXPECT_EQ(report.non_manifold_points, Ids{});
+  EXPECT_EQ(report.boundary_loops, 1);
+  EXPECT_EQ(report.degenerate_faces, (Ids{0, 1}));
 }
 
 /// Counts of each undirected edge's uses, by an ordered map.
