@@ -3,6 +3,7 @@
 #include <tendril/curve/arc_length.h>
 
 #include <cmath>
+#include <limits>
 
 #include "curve/projection_cases.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 using test::NamedCurve;
 using test::Random;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ArcLengthOf, AStraightLineAtUnevenSpeedIsTheDistance) {
   const BSpline line = test::uniform_curve(3, {{0, 0, 0}, {1, 2, 2}, {1.5, 3, 3}, {4, 8, 8}, {5, 10, 10}});
@@ -101,8 +104,8 @@ TEST(ArcLengthOf, ACurveThatRestsHasTheFirstParameter) {
 
 TEST(ArcLengthOf, NaNIsRefused) {
   const ArcLength arc(test::projection_curves().front().curve);
-  EXPECT_THROW(arc.length_to(NAN), InvalidInput);
-  EXPECT_THROW(arc.parameter_at(NAN), InvalidInput);
+  EXPECT_THROW(arc.length_to(kNaN), InvalidInput);
+  EXPECT_THROW(arc.parameter_at(kNaN), InvalidInput);
 }
 
 }  // namespace

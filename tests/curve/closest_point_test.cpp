@@ -3,6 +3,7 @@
 #include <tendril/curve/closest_point.h>
 
 #include <cmath>
+#include <limits>
 
 #include "curve/projection_cases.h"
 
@@ -10,6 +11,9 @@ namespace tendril {
 namespace {
 
 using test::Random;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(NearestPoint, OnALineIsTheFootOrTheNearerEnd) {
   for (int degree = 1; degree <= 5; ++degree) {
@@ -148,11 +152,11 @@ TEST(NearestPoint, AnswersWithTheCurveAtItsParameter) {
 
 TEST(NearestPoint, RefusesWhatIsNotANumber) {
   const CurveProjector projector(test::projection_curves().front().curve);
-  EXPECT_THROW(projector.nearest(Vec3(0, NAN, 0)), InvalidInput);
-  EXPECT_THROW(projector.nearest(Vec3(INFINITY, 0, 0)), InvalidInput);
+  EXPECT_THROW(projector.nearest(Vec3(0, kNaN, 0)), InvalidInput);
+  EXPECT_THROW(projector.nearest(Vec3(kInfinity, 0, 0)), InvalidInput);
   EXPECT_THROW(projector.nearest(Vec3(0, 0, 1e200)), InvalidInput);
-  EXPECT_THROW(projector.nearest(Vec3(0, 0, 0), NAN), InvalidInput);
-  EXPECT_EQ(projector.nearest(Vec3(0, 0, 0), -INFINITY).t, projector.nearest(Vec3(0, 0, 0)).t);
+  EXPECT_THROW(projector.nearest(Vec3(0, 0, 0), kNaN), InvalidInput);
+  EXPECT_EQ(projector.nearest(Vec3(0, 0, 0), -kInfinity).t, projector.nearest(Vec3(0, 0, 0)).t);
 }
 
 }  // namespace

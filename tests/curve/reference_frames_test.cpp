@@ -3,12 +3,15 @@
 #include <tendril/curve/reference_frames.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "curve/projection_cases.h"
 
 namespace tendril {
 namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kStart = -1.0, kEnd = 2.0;
 
@@ -149,9 +152,9 @@ TEST(DirectionalFrame, AlongTheTangentIsReported) {
 }
 
 TEST(ReferenceFrameInput, IsRefused) {
-  const std::vector<double> none, falling{0.5, 0.2}, nan{0.0, NAN}, fine{0.0, 0.2};
+  const std::vector<double> none, falling{0.5, 0.2}, nan{0.0, kNaN}, fine{0.0, 0.2};
   EXPECT_THROW(directional_frame(helix(), 0.0, Vec3::Zero()), InvalidInput);
-  EXPECT_THROW(directional_frame(helix(), 0.0, Vec3(0, NAN, 0)), InvalidInput);
+  EXPECT_THROW(directional_frame(helix(), 0.0, Vec3(0, kNaN, 0)), InvalidInput);
   EXPECT_THROW(rotation_minimising_frames(helix(), none, Vec3::UnitX()), InvalidInput);
   EXPECT_THROW(rotation_minimising_frames(helix(), falling, Vec3::UnitX()), InvalidInput);
   EXPECT_THROW(rotation_minimising_frames(helix(), nan, Vec3::UnitX()), InvalidInput);

@@ -151,7 +151,12 @@ Projection describe(const CurveProjector::Data& data, const Vec3& p,
   const double t = found.t;
   const int span = knots.span(t);
   const Basis basis = knots.basis_in_span(t, span, 2);
-  Projection result{t, curve.value(t), found.distance, ProjectionKind::interior, 0.0, found.gap};
+  Projection result{t,
+                    combine(basis, curve.degree(), curve.control_points()),
+                    found.distance,
+                    ProjectionKind::interior,
+                    0.0,
+                    found.gap};
   const Vec3 offset = result.point - p;
   const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
   const bool rest = at_rest(data, d1, span);

@@ -133,6 +133,25 @@ struct Interval {
   }
 };
 
+/// A place near the root of sum_k g_k B_k(s): Newton's method on these scalars, cheaper than on the curve.
+/// Needs g_0 < 0 < g_n and ascending g.
+template <std::size_t N>
+double guess(const std::array<double, N>& g) {
+  double s = g.front() / (g.front() - g.back());
+  for (int i = 0; i < 3; ++i) {
+    std::array<double, N> q = g;
+    const double r = 1.0 - s;
+    for (std::size_t n = N - 1; n > 1; --n)
+      for (std::size_t k = 0; k < n; ++k) q[k] = r * q[k] + s * q[k + 1];
+    const double value = r * q[0] + s * q[1], rate = static_cast<double>(N - 1) * (q[1] - q[0]);
+    const double next = rate > 0.0 ? s - value / rate : s;
+    const double step = std::abs(next - s);
+    s = next > 0.0 && next < 1.0 ? next : 0.5 * (s + (next < 0.5 ? 0.0 : 1.0));
+    if (step < 1e-6) break;
+  }
+  return s;
+}
+
 /// Root of (c - p) . c' on an interval where it increases strictly, or the end it points to.
 /// Newton's method kept inside a shrinking bracket.
 struct Root {
@@ -145,7 +164,7 @@ Root stationary(const Interval<P>& interval) {
   const double g0 = interval.slope.front(), gn = interval.slope.back();
   if (g0 >= 0.0) return {0.0, 0.0, 1.0, jet<P>(interval.points, 0.0)};
   if (gn <= 0.0) return {1.0, 0.0, 1.0, jet<P>(interval.points, 1.0)};
-  double low = 0.0, high = 1.0, s = g0 / (g0 - gn), last_step = 1.0;
+  double low = 0.0, high = 1.0, s = guess(interval.slope), last_step = 1.0;
   Root root{s, 0.0, 1.0, {}};
   for (int i = 0; i < 120; ++i) {
     root.at = jet<P>(interval.points, s);
@@ -154,8 +173,10 @@ Root stationary(const Interval<P>& interval) {
     (root.slope < 0.0 ? low : high) = s;
     const double curvature = root.at.d1.squaredNorm() + root.at.c.dot(root.at.d2);
     const double step = curvature > 0.0 ? -root.slope / curvature : 2.0;
-    const double noise = kUnit * interval.reach * (root.at.d1.norm() + root.at.c.norm());
-    if (std::abs(root.slope) <= noise || std::abs(step) <= 1e-15) break;
+    if (std::abs(step) <= 1e-15) break;
+    if (std::abs(step) < 1e-3 &&
+        std::abs(root.slope) <= kUnit * interval.reach * (root.at.d1.norm() + root.at.c.norm()))
+      break;
     // Out of the bracket, or not halving the step: bisect.
     double next = s + step;
     if (!(next > low && next < high) || std::abs(step) > 0.5 * std::abs(last_step)) next = 0.5 * (low + high);
@@ -225,16 +246,17 @@ class Search {
   }
 
   bool take_end(const Piece<P>& piece, double s, const Vec3& offset) {
-    candidate(piece.parameter(s));
-    prove(offset.norm() * (1.0 - 4.0 * kUnit));
+    const double distance = offset.norm();
+    candidate(piece.parameter(s), distance);
+    prove(distance * (1.0 - 4.0 * kUnit));
     return true;
   }
 
   /// D is convex with D'' >= convexity, so D >= D(s) - |D'(s)| width and D >= D(s) - D'(s)^2 / (2 convexity).
   bool take_root(const Piece<P>& piece, const Interval<P>& interval, double convexity) {
     const Root root = stationary<P>(interval);
-    candidate(piece.parameter(interval.parameter(root.s)));
     const double distance = root.at.c.norm();
+    candidate(piece.parameter(interval.parameter(root.s)), distance);
     const double speed_error = 8.0 * P * kUnit * P * interval.reach;
     const double slope = 2.0 * (std::abs(root.slope) + distance * speed_error +
                                 8.0 * P * kUnit * interval.reach * root.at.d1.norm());
@@ -244,7 +266,9 @@ class Search {
     return true;
   }
 
-  void candidate(double t) {
+  /// \param local  the distance on the local curve: one beyond the cut needs no evaluation
+  void candidate(double t, double local = 0.0) {
+    if (local > cut_) return;
     const double d = (curve_.value(t) - p_).norm();
     if (d < distance_ || (d == distance_ && t < t_)) {
       distance_ = d;
