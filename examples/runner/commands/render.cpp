@@ -94,7 +94,7 @@ int render(const Options& options) {
 }  // namespace
 
 int thread_count(int asked) {
-  if (asked < 0 || asked > 1024) throw InvalidInput("--threads", std::to_string(asked), "0 (all) to 1024");
+  if (asked < 0 || asked > 256) throw InvalidInput("--threads", std::to_string(asked), "0 (all) to 256");
   return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 

@@ -13,6 +13,7 @@ namespace tendril::runner {
 struct SceneFile {
   std::string path;
   Scene scene;
+  Json units;                              ///< as given, or null
   std::vector<std::string> names;          ///< of the curve-pairs
   std::vector<double> thickness;           ///< of the curve-pairs, to draw them where there is no mesh
   std::vector<std::string> anchor_places;  ///< JSON pointer of each anchor of the scene
@@ -21,7 +22,7 @@ struct SceneFile {
   std::size_t bound_to = 0;                ///< curve-pair that the mesh follows
   SimulationOptions options;
   double duration = 0.0;
-  std::vector<double> outputs;  ///< after time 0, ascending
+  std::vector<double> outputs;  ///< ascending, from time 0
   ViewOptions view;
   int panels = 12;
   bool draw_axis = false;

@@ -61,6 +61,11 @@ bool starts(const std::string& text, const char* with) {
   return text.rfind(with, 0) == 0;
 }
 
+std::string unknown_key(const std::string& description) {
+  const std::string quoted = quoted_part(description);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 std::string reason_of(const Error& error, const Json& value) {
   const std::string& said = error.description;
   if (starts(said, "Object contains a property")) return "unknown key " + quoted_part(said);
@@ -104,6 +109,10 @@ void require_schema(const Json& document, const char* schema_text, const std::st
   const JsonNode root(name, document);
   if (!error) root.refuse("the schema does not allow it", "what the schema says");
   const Spot spot = find_spot(root, schema_json, *error);
+  if (starts(error->description, "Object contains a property")) {
+    const std::string key = unknown_key(error->description);
+    if (spot.node.has(key)) spot.node.at(key).refuse("unknown key", expectation_of(*error, *spot.schema));
+  }
   spot.node.refuse(reason_of(*error, spot.node.value()), expectation_of(*error, *spot.schema));
 }
 

@@ -1,0 +1,81 @@
+#include "commands.h"
+#include "read/curve_reader.h"
+#include "write/json_output.h"
+
+#include <tendril/base/file.h>
+#include <tendril/bind/binding.h>
+#include <tendril/bind/export.h>
+#include <tendril/bind/import.h>
+#include <tendril/curve/equal_length.h>
+
+#include <iostream>
+
+namespace tendril::runner {
+namespace {
+
+struct Options {
+  std::string mesh, axis, pose, out;
+  bool equal_length = false, json = false;
+  int threads = 0;
+};
+
+void deform_at_equal_length(const bind::Binding& binding, const CurvePair& rest, const CurvePair& posed,
+                            MutablePoints out) {
+  const ArcLength rest_length(rest.primary()), posed_length(posed.primary());
+  const auto records = binding.records();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = from_axial(posed, at_equal_length(rest_length, posed_length, records[i]));
+  }
+}
+
+int deform(const Options& options) {
+  const int threads = thread_count(options.threads);
+  bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const CurveFile rest = read_curve(options.axis);
+  const CurveFile posed = read_curve(options.pose, &rest);
+  if (!options.equal_length && !(posed.pair.knots() == rest.pair.knots())) {
+    throw InvalidInput(options.pose + "#", "its knots or degree differ from those of " + options.axis,
+                       "the same, or --equal-length");
+  }
+  const bind::Binding binding(rest.pair, mesh.points, threads);
+  if (options.equal_length) {
+    deform_at_equal_length(binding, rest.pair, posed.pair, mesh.points);
+  } else {
+    binding.update(posed.pair, mesh.points, threads);
+  }
+  mesh.point_normals.clear();
+  bind::write_mesh(options.out, mesh);
+
+  const bind::BindReport& report = binding.report();
+  if (options.json) {
+    print({{"mesh", options.out},
+           {"points", mesh.points.size()},
+           {"rest_error", report.rest_error},
+           {"largest_gap", report.largest_gap},
+           {"beyond_ends", report.beyond_ends},
+           {"past_focus", report.past_focus},
+           {"degenerate", report.degenerate}});
+  } else {
+    std::cout << options.out << ": " << mesh.points.size() << " points; " << report.beyond_ends
+              << " beyond the ends, " << report.past_focus.size() << " past the focus, rest error "
+              << report.rest_error << '\n';
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command deform_command(CLI::App& parent) {
+  auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
+  const auto options = std::make_shared<Options>();
+  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("--axis", options->axis, "curve file (JSON) of the axis at rest")->required();
+  app->add_option("--pose", options->pose, "curve file (JSON) of the posed axis")->required();
+  app->add_option("--out", options->out, "PLY or OFF file to write")->required();
+  app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");
+  app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
+  app->add_flag("--json", options->json, "print JSON");
+  return {app, [options] { return deform(*options); }};
+}
+
+}  // namespace tendril::runner

@@ -1,0 +1,78 @@
+#include "write/run_pictures.h"
+
+#include "draw/drawing.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace tendril::runner {
+namespace {
+
+constexpr double kThinnest = 0.003;  // radius of a line over the size of what is seen
+
+class Painter {
+ public:
+  Painter(const SceneFile& file, bind::PolygonMesh& mesh, const Camera& camera, int threads)
+      : file_(file), mesh_(mesh), camera_(camera), threads_(threads) {}
+
+  Picture paint(const Moment& moment, const ViewOptions& view) const {
+    Drawing drawing;
+    if (!moment.points.empty()) {
+      mesh_.points = moment.points;
+      drawing.mesh = &mesh_;
+    }
+    for (std::size_t r = 0; r < moment.pairs.size(); ++r) {
+      const double thin = kThinnest * camera_.size;
+      const std::vector<Strand> axis = axis_strands(moment.pairs[r], moment.masses[r], thin);
+      const bool bare = drawing.mesh == nullptr || r != file_.bound_to;
+      if (bare) drawing.solid.push_back(thick(axis.front(), std::max(thin, 0.5 * file_.thickness[r])));
+      if (file_.draw_axis) drawing.over.insert(drawing.over.end(), axis.begin(), axis.end());
+    }
+    return draw(drawing, camera_, view, threads_);
+  }
+
+ private:
+  static Strand thick(Strand strand, double radius) {
+    strand.radius = radius;
+    strand.color = Vec3f(0.40F, 0.30F, 0.22F);
+    return strand;
+  }
+
+  const SceneFile& file_;
+  bind::PolygonMesh& mesh_;
+  Camera camera_;
+  int threads_;
+};
+
+std::string caption(double time) {
+  char text[32];
+  const int hundredths = static_cast<int>(std::lround(std::min(time, 1e6) * 100.0));
+  std::snprintf(text, sizeof text, "t = %d.%02d", hundredths / 100, hundredths % 100);
+  return text;
+}
+
+}  // namespace
+
+bool draw_run(const SceneFile& file, bind::PolygonMesh& mesh, Recorder& recorder, int threads,
+              const std::function<bool(double)>& go_on) {
+  const Painter painter(file, mesh, recorder.camera(), threads);
+  ViewOptions small = file.view;
+  small.width = std::max(16, file.view.width / 2);
+  small.height = std::max(16, file.view.height / 2);
+  const auto& moments = recorder.moments();
+  std::vector<Picture> panels;
+  std::vector<std::string> captions;
+  for (const Moment& moment : moments) {
+    if (!go_on(static_cast<double>(panels.size()) / static_cast<double>(moments.size() + 2))) return false;
+    panels.push_back(painter.paint(moment, small));
+    captions.push_back(caption(moment.time));
+  }
+  const Picture last = painter.paint(recorder.last(), file.view);
+  if (!go_on(1.0)) return false;
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
+  recorder.write("contact_sheet.png", png_bytes(contact_sheet(panels, captions, columns)));
+  recorder.write("final.png", png_bytes(last));
+  return true;
+}
+
+}  // namespace tendril::runner
