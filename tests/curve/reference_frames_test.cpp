@@ -80,7 +80,7 @@ TEST(FrenetFrameOf, AHelixHasItsClosedForm) {
 
 TEST(FrenetFrameOf, ALineAnInflectionAndARestAreReported) {
   const BSpline line =
-      test::uniform_curve(3, test::along(9, [](double s) { return Vec3(3 * s, s, -7 * s); }));
+      test::uniform_curve(3, test::along(10, [](double s) { return Vec3(3 * s, 0.1 * s, -7 * s); }));
   for (const double t : {0.0, 0.31, 0.5, 1.0}) {
     EXPECT_NE(frenet_frame(line, t).status, FrameStatus::ok) << t;
     EXPECT_EQ(frenet_frame(line, t).curvature, 0.0);
@@ -97,6 +97,17 @@ TEST(FrenetFrameOf, ALineAnInflectionAndARestAreReported) {
   EXPECT_EQ(rest.status, FrameStatus::zero_speed);
   EXPECT_NEAR(rest.frame.z.x(), 1.0, 1e-14);
   EXPECT_LT(departure(rest.frame), 1e-14);
+  EXPECT_EQ(directional_frame(cusp, 0.0, Vec3::UnitZ()).status, FrameStatus::zero_speed);
+}
+
+TEST(FrenetFrameOf, ARestAtAnEndLooksAlongTheCurve) {
+  const BSpline curve =
+      test::uniform_curve(3, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 3, 0}, {2, 4, 0}, {2, 4, 0}});
+  for (const double t : {0.0, 1.0}) {
+    const FrenetFrame at = frenet_frame(curve, t);
+    EXPECT_EQ(at.status, FrameStatus::zero_speed);
+    EXPECT_NEAR((at.frame.z - (t == 0.0 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()))).norm(), 0.0, 1e-14);
+  }
 }
 
 TEST(RotationMinimisingFrames, ConvergeToTheExactOnesWithTheFourthPowerOfTheStep) {
@@ -118,6 +129,16 @@ TEST(RotationMinimisingFrames, KeepTheirDirectionAlongALineAndAcrossAPause) {
     EXPECT_NEAR((frame.y - Vec3(0, 1, 1).normalized()).norm(), 0.0, 1e-15);
   EXPECT_EQ(frames.status[1], FrameStatus::ok);
   EXPECT_EQ(frames.status[2], FrameStatus::zero_edge);
+}
+
+/// From the middle of the first edge of a Z to that of the last: equal tangents across the step, so that the
+/// second reflection has no plane.
+TEST(RotationMinimisingFrames, WithoutASecondReflectionAreReported) {
+  const BSpline z(KnotVector(1, {0, 0, 1, 2, 3, 3}), {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}});
+  const std::vector<double> parameters{0.5, 2.5};
+  const NodeFrames frames = rotation_minimising_frames(z, parameters, Vec3(0, 1, 1));
+  EXPECT_EQ(frames.status[1], FrameStatus::fold_back);
+  EXPECT_LT(departure(frames.frame[1]), 1e-14);
 }
 
 TEST(RotationMinimisingFrames, AreFramesOnEveryCurve) {
