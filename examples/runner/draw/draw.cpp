@@ -155,18 +155,21 @@ class Tracer {
   Axes sun_across_;
 };
 
-std::uint8_t encode(float light) {
+/// \param dither  0 to 1, hides the steps of 8 bits in the pale background
+std::uint8_t encode(float light, float dither) {
   // Straight up to 0.7, then a shoulder that keeps highlights from clipping; the eye's gamma of 2.2.
   const float knee = 0.7F;
   const float soft =
       light <= knee ? light : knee + (1.0F - knee) * (1.0F - std::exp(-(light - knee) / (1.0F - knee)));
-  return static_cast<std::uint8_t>(std::lround(255.0F * std::pow(std::clamp(soft, 0.0F, 1.0F), 1.0F / 2.2F)));
+  const float encoded = std::pow(std::clamp(soft, 0.0F, 1.0F), 1.0F / 2.2F);
+  return static_cast<std::uint8_t>(std::min(255.0F, 255.0F * encoded + dither));
 }
 
 void draw_row(const Tracer& tracer, Picture& picture, int y) {
   for (int x = 0; x < picture.width; ++x) {
     const Vec3f light = tracer.pixel(x, y);
-    for (int k = 0; k < 3; ++k) picture.pixel(x, y)[k] = encode(light[k]);
+    const float dither = Samples(x, y).pair(3, 0).x();
+    for (int k = 0; k < 3; ++k) picture.pixel(x, y)[k] = encode(light[k], dither);
   }
 }
 

@@ -73,17 +73,28 @@ Material read_material(const JsonNode& material) {
   return {young, shear, density};
 }
 
+std::vector<double> read_sizes(const JsonNode& size, std::size_t points) {
+  if (!size.is_array()) return std::vector<double>(points, size.positive());
+  if (size.size() != points) {
+    size.refuse(std::to_string(size.size()) + " sizes",
+                "one for each of the " + std::to_string(points) + " points");
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < points; ++i) out.push_back(size.at(i).positive());
+  return out;
+}
+
 /// Sections along a chain: sizes constant or per given point.
 class SectionReader {
  public:
   SectionReader(const JsonNode& section, std::size_t points)
       : node_(section), type_(section.at("type").text()) {
     if (type_ == "circular") {
-      a_ = sizes("radius", points);
+      a_ = read_sizes(node_.at("radius"), points);
       refuse_unused({"a", "b"});
     } else {
-      a_ = sizes("a", points);
-      b_ = sizes("b", points);
+      a_ = read_sizes(node_.at("a"), points);
+      b_ = read_sizes(node_.at("b"), points);
       refuse_unused({"radius"});
     }
   }
@@ -98,17 +109,6 @@ class SectionReader {
   }
 
  private:
-  std::vector<double> sizes(const std::string& key, std::size_t points) const {
-    const JsonNode size = node_.at(key);
-    if (!size.is_array()) return std::vector<double>(points, size.positive());
-    if (size.size() != points) {
-      size.refuse(std::to_string(size.size()) + " sizes",
-                  "one for each of the " + std::to_string(points) + " points");
-    }
-    std::vector<double> out;
-    for (std::size_t i = 0; i < points; ++i) out.push_back(size.at(i).positive());
-    return out;
-  }
   void refuse_unused(const std::vector<std::string>& keys) const {
     for (const std::string& key : keys) {
       if (node_.has(key))
@@ -178,6 +178,13 @@ Rod read_rod(const JsonNode& curve_pair) {
   rod.mass_damping = curve_pair.number_or("mass_damping", 0.0);
   rod.viscosity = curve_pair.number_or("viscosity", 0.0);
   return rod;
+}
+
+std::vector<double> read_along(const JsonNode& curve_pair, const std::string& key) {
+  const std::vector<double> sizes = read_sizes(curve_pair.at(key), curve_pair.at("points").size());
+  std::vector<double> out;
+  for (const double where : read_chain(curve_pair).where) out.push_back(between(sizes, where));
+  return out;
 }
 
 std::size_t read_node(const JsonNode& node, const Rod& rod) {

@@ -11,6 +11,9 @@ namespace tendril::runner {
 /// them, and are taken at the nodes for bending and halfway along the edges for stretch, twist and mass.
 Rod read_rod(const JsonNode& curve_pair);
 
+/// A size of a curve-pair at each of its nodes: given once, or per point and then linear in between.
+std::vector<double> read_along(const JsonNode& curve_pair, const std::string& key);
+
 /// Number of a node of a rod; -1 is the last.
 std::size_t read_node(const JsonNode& node, const Rod& rod);
 

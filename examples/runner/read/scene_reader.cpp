@@ -29,6 +29,7 @@ void read_curve_pairs(const JsonNode& list, SceneFile& out) {
     out.scene.rods.push_back(read_rod(one));
     const Rod& rod = out.scene.rods.back();
     out.thickness.push_back(*std::max_element(rod.width.begin(), rod.width.end()));
+    out.reach.push_back(one.has("reach") ? read_along(one, "reach") : std::vector<double>{});
     if (!one.has("anchors")) continue;
     for (std::size_t k = 0; k < one.at("anchors").size(); ++k) {
       const JsonNode anchor = one.at("anchors").at(k);

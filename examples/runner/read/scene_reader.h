@@ -16,6 +16,7 @@ struct SceneFile {
   Json units;                              ///< as given, or null
   std::vector<std::string> names;          ///< of the curve-pairs
   std::vector<double> thickness;           ///< of the curve-pairs, to draw them where there is no mesh
+  std::vector<std::vector<double>> reach;  ///< per curve-pair and node; empty where everything is reached
   std::vector<std::string> anchor_places;  ///< JSON pointer of each anchor of the scene
   std::vector<std::string> force_places;   ///< and of each force
   std::string mesh;                        ///< path, made relative to where the program runs; empty for none

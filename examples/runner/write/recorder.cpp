@@ -34,6 +34,22 @@ void append(std::string& line, const Vec3& v) {
 
 }  // namespace
 
+std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest, std::span<const double> reach,
+                                     std::span<const double> parameters) {
+  std::vector<StillPoint> out;
+  if (reach.empty()) return out;
+  const auto records = binding.records();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const AxialPoint& r = records[i];
+    const auto after = std::upper_bound(parameters.begin() + 1, parameters.end() - 1, r.t);
+    const auto k = static_cast<std::size_t>(after - parameters.begin());
+    const double part = (r.t - parameters[k - 1]) / (parameters[k] - parameters[k - 1]);
+    const double limit = (1.0 - part) * reach[k - 1] + part * reach[k];
+    if (Vec3(r.u, r.v, r.w).norm() > limit) out.push_back({i, rest[i]});
+  }
+  return out;
+}
+
 Recorder::Recorder(const SceneFile& file, const System& system, const Simulation& simulation,
                    bind::PolygonMesh& mesh, const bind::Binding* binding, RecorderOptions options,
                    Phases& phases)
@@ -46,7 +62,10 @@ Recorder::Recorder(const SceneFile& file, const System& system, const Simulation
       work_(system.make_workspace()),
       fit_(file.view),
       panels_(spread(file.outputs.size(), static_cast<std::size_t>(file.panels))) {
-  if (binding != nullptr) follower_.emplace(*binding, file.bound_to, mesh_.points, options_.threads);
+  if (binding == nullptr) return;
+  follower_.emplace(*binding, file.bound_to, mesh_.points, options_.threads);
+  still_ =
+      still_points(*binding, mesh_.points, file.reach[file.bound_to], simulation.parameters(file.bound_to));
 }
 
 void Recorder::follow(double time, std::span<const CurvePair> pairs) {
@@ -73,6 +92,7 @@ void Recorder::update_mesh(double time, std::span<const CurvePair> pairs) {
   if (!follower_) return;
   const Phases::Timer timer(phases_, Phases::update, Phases::simulate);
   follower_->follow(time, pairs);
+  for (const StillPoint& one : still_) mesh_.points[one.index] = one.position;
 }
 
 void Recorder::note_trajectory(double time) {

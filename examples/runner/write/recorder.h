@@ -25,6 +25,17 @@ struct RecorderOptions {
   int threads = 1;
 };
 
+/// A mesh point out of reach of the curve-pair, and where it stays.
+struct StillPoint {
+  std::size_t index;
+  Vec3 position;
+};
+
+/// The points of the mesh whose distance from the curve at rest is beyond the reach given at the nodes.
+/// \param parameters  of the nodes on the curve, ascending
+std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest, std::span<const double> reach,
+                                     std::span<const double> parameters);
+
 /// Follows a run at its outputs: brings the mesh up to date, writes it as a frame, notes the trajectory, and
 /// keeps the moments that the pictures show. Every file it writes is whole.
 class Recorder : public Follower {
@@ -36,6 +47,7 @@ class Recorder : public Follower {
   void follow(double time, std::span<const CurvePair> pairs) override;
 
   std::size_t outputs() const { return count_; }
+  std::size_t still() const { return still_.size(); }
   const std::vector<std::string>& files() const { return files_; }
   const std::vector<Moment>& moments() const { return moments_; }
   const Moment& last() const { return last_; }
@@ -55,6 +67,7 @@ class Recorder : public Follower {
   const Simulation& simulation_;
   bind::PolygonMesh& mesh_;
   std::optional<bind::MeshFollower> follower_;
+  std::vector<StillPoint> still_;
   RecorderOptions options_;
   Phases& phases_;
   System::WorkspacePtr work_;

@@ -9,8 +9,9 @@ OrderedJson to_json(const Energies& e) {
   return {{"kinetic", e.kinetic}, {"elastic", e.elastic}, {"potential", e.potential}, {"total", e.total()}};
 }
 
-OrderedJson to_json(const bind::BindReport& report, std::size_t points) {
+OrderedJson to_json(const bind::BindReport& report, std::size_t points, std::size_t still) {
   return {{"points", points},
+          {"out_of_reach", still},
           {"rest_error", report.rest_error},
           {"largest_gap", report.largest_gap},
           {"beyond_ends", report.beyond_ends},
@@ -59,7 +60,8 @@ OrderedJson summarize(const SceneFile& file, const System& system, const bind::P
   out["mesh"] = binding == nullptr
                     ? OrderedJson()
                     : OrderedJson{{"points", mesh.points.size()}, {"faces", mesh.face_count()}};
-  out["binding"] = binding == nullptr ? OrderedJson() : to_json(binding->report(), binding->size());
+  out["binding"] =
+      binding == nullptr ? OrderedJson() : to_json(binding->report(), binding->size(), recorder.still());
   out["left_out"] = left_out(system, binding);
   out["outputs"] = recorder.outputs();
   out["files"] = recorder.files();
