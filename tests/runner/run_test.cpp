@@ -1,0 +1,225 @@
+#include "runner/program.h"
+
+#include <tendril/bind/import.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace tendril::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// All files of a folder by name; summary.json without its timings.
+std::map<std::string, std::string> contents(const std::string& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    out[name] = bytes_of(entry.path());
+    if (name != "summary.json") continue;
+    Json summary = Json::parse(out[name]);
+    EXPECT_EQ(summary.erase("wall_s"), 1U);
+    out[name] = summary.dump();
+  }
+  return out;
+}
+
+TEST(Run, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  folder.write("scene.json", full_scene());
+  for (const char* run : {"--out a --threads 1", "--out b --threads 1", "--out c --threads 2"}) {
+    const Outcome outcome = folder.run(std::string("run scene.json ") + run);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const auto first = contents(folder / "a");
+  EXPECT_EQ(first.size(), 6U + 4U);  // frames, trajectory, summary, two pictures
+  EXPECT_EQ(first, contents(folder / "b"));
+  EXPECT_EQ(first, contents(folder / "c"));
+  EXPECT_NE(first.at("frame_0000.ply"), first.at("frame_0005.ply"));
+}
+
+TEST(Run, PrintsTheSummaryAndNothingElse) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  folder.write("scene.json", full_scene());
+  const Outcome outcome = folder.run("run scene.json --out out --json --no-frames --no-pictures");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const Json summary = Json::parse(outcome.out);
+  EXPECT_EQ(summary, Json::parse(bytes_of(folder / "out/summary.json")));
+  EXPECT_EQ(summary.at("status"), "finished");
+  EXPECT_EQ(summary.at("time"), 0.1);
+  EXPECT_GT(summary.at("rhs_evaluations"), summary.at("steps_accepted"));
+  EXPECT_LT(std::abs(summary.at("energy").at("imbalance").get<double>()), 1e-3);
+  EXPECT_EQ(summary.at("files"), Json::parse(R"(["trajectory.csv"])"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_0000.ply"));
+}
+
+TEST(Run, FirstFrameIsTheMeshAndTheTrajectoryHasEveryMass) {
+  const Folder folder;
+  const std::string mesh = folder.write("tube.off", tube_off());
+  folder.write("scene.json", full_scene());
+  ASSERT_EQ(folder.run("run scene.json --out out --double --no-pictures").code, 0);
+  const auto rest = bind::read_mesh(mesh), first = bind::read_mesh(folder / "out/frame_0000.ply");
+  ASSERT_EQ(first.points.size(), rest.points.size());
+  for (std::size_t i = 0; i < rest.points.size(); ++i) {
+    EXPECT_LT((first.points[i] - rest.points[i]).norm(), 1e-14);
+  }
+  EXPECT_EQ(first.corners, rest.corners);
+  const std::string trajectory = bytes_of(folder / "out/trajectory.csv");
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + 6 * (6 + 4));
+  EXPECT_NE(trajectory.find("\n0,0,0,0,0,0,"), std::string::npos);
+}
+
+TEST(Run, PointsOutOfReachStayWhereTheyAre) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["reach"] = Json::parse("[1, 1, 0.01]");
+  folder.write("scene.json", scene.dump());
+  ASSERT_EQ(folder.run("run scene.json --out out --double --no-pictures").code, 0);
+  const auto first = bind::read_mesh(folder / "out/frame_0000.ply");
+  const auto last = bind::read_mesh(folder / "out/frame_0005.ply");
+  const std::size_t top = first.points.size() - 1, middle = first.points.size() / 2;
+  EXPECT_EQ(last.points[top], first.points[top]);
+  EXPECT_GT((last.points[middle] - first.points[middle]).norm(), 1e-6);
+}
+
+TEST(Run, ExitsWithOneAndTheReasonWhenTheWorkLimitIsTooSmall) {
+  const Folder folder;
+  Json scene = Json::parse(full_scene());
+  scene["mesh"] = nullptr;
+  scene["simulation"]["work_limit"] = 50;
+  folder.write("scene.json", scene.dump());
+  const Outcome outcome = folder.run("run scene.json --out out --json --no-pictures");
+  EXPECT_EQ(outcome.code, 1);
+  const Json summary = Json::parse(outcome.out);
+  EXPECT_TRUE(summary.at("status") == "too_stiff" || summary.at("status") == "work_limit") << outcome.out;
+  EXPECT_NE(summary.at("reason"), "");
+  EXPECT_NE(outcome.err.find(summary.at("reason").get<std::string>()), std::string::npos);
+}
+
+/// Starts the program without waiting.
+pid_t start(const Folder& folder, std::vector<std::string> arguments) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  std::vector<char*> argv;
+  static std::string program = TENDRIL_PROGRAM;
+  argv.push_back(program.data());
+  for (std::string& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  if (chdir(folder.path().c_str()) != 0 || freopen("/dev/null", "w", stderr) == nullptr ||
+      freopen("/dev/null", "w", stdout) == nullptr) {
+    _exit(126);
+  }
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+bool appears(const std::string& path) {
+  for (int i = 0; i < 600; ++i) {
+    if (std::filesystem::exists(path)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+TEST(Run, CtrlCLeavesWholeFilesAndASummary) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  Json scene = Json::parse(full_scene());
+  scene["simulation"] = {
+      {"duration", 5000}, {"output_every", 1.0}, {"tolerance", 1e-4}, {"work_limit", 4000000000}};
+  folder.write("scene.json", scene.dump());
+  const pid_t child = start(folder, {"run", "scene.json", "--out", "out"});
+  ASSERT_TRUE(appears(folder / "out/frame_0002.ply"));
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+
+  const Json summary = Json::parse(bytes_of(folder / "out/summary.json"));
+  EXPECT_EQ(summary.at("status"), "cancelled");
+  const long outputs = summary.at("outputs").get<long>();
+  const std::string trajectory = bytes_of(folder / "out/trajectory.csv");
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + outputs * (6 + 4));
+  long frames = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".ply") {
+      EXPECT_TRUE(name == "summary.json" || name == "trajectory.csv") << name;
+      continue;
+    }
+    EXPECT_EQ(bind::read_mesh(entry.path().string()).points.size(), 36U) << name;
+    ++frames;
+  }
+  EXPECT_EQ(frames, outputs);
+}
+
+TEST(Deform, KeepsTheMeshWhenTheAxisStaysAndLengthWhenAsked) {
+  const Folder folder;
+  const std::string mesh = folder.write("tube.off", tube_off());
+  folder.write("rest.json",
+               R"({"version": 1, "degree": 1, "points": [[0, 0, 0], [0, 1, 0]], "orientation": [1, 0, 0]})");
+  folder.write("long.json",
+               R"({"version": 1, "degree": 1, "points": [[0, 0, 0], [0, 2, 0]], "orientation": [1, 0, 0]})");
+  ASSERT_EQ(folder.run("deform tube.off --axis rest.json --pose rest.json --out same.ply").code, 0);
+  ASSERT_EQ(folder.run("deform tube.off --axis rest.json --pose long.json --out twice.ply").code, 0);
+  ASSERT_EQ(
+      folder.run("deform tube.off --axis rest.json --pose long.json --out kept.ply --equal-length").code, 0);
+  const auto rest = bind::read_mesh(mesh), same = bind::read_mesh(folder / "same.ply"),
+             twice = bind::read_mesh(folder / "twice.ply"), kept = bind::read_mesh(folder / "kept.ply");
+  for (std::size_t i = 0; i < rest.points.size(); ++i) {
+    const Vec3& p = rest.points[i];
+    EXPECT_LT((same.points[i] - p).norm(), 1e-14);
+    EXPECT_LT((twice.points[i] - Vec3(p.x(), 2.0 * p.y(), p.z())).norm(), 1e-13);
+    EXPECT_LT((kept.points[i] - p).norm(), 1e-13);
+  }
+}
+
+TEST(Project, GivesTheWholeProjection) {
+  const Folder folder;
+  folder.write("axis.json",
+               R"({"version": 1, "degree": 1, "points": [[0, 0, 0], [0, 2, 0]], "orientation": [1, 0, 0]})");
+  folder.write("points.csv", "x,y,z\n0.5,0.5,0  # inside\n0,3,0\n");
+  const Outcome outcome = folder.run("project axis.json points.csv --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json points = Json::parse(outcome.out).at("points");
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_NEAR(points[0].at("t").get<double>(), 0.25, 1e-14);
+  EXPECT_NEAR(points[0].at("distance").get<double>(), 0.5, 1e-14);
+  EXPECT_NEAR(points[0].at("v").get<double>(), 0.5, 1e-14);  // y points to the orientation curve
+  EXPECT_EQ(points[0].at("kind"), "interior");
+  EXPECT_EQ(points[0].at("frame"), "ok");
+  EXPECT_EQ(points[1].at("kind"), "end");
+  EXPECT_NEAR(points[1].at("w").get<double>(), 1.0, 1e-14);
+  EXPECT_EQ(points[1].at("point"), Json::parse("[0.0, 2.0, 0.0]"));
+  EXPECT_NEAR(points[1].at("lambda").get<double>(), 1.0, 1e-14);
+  EXPECT_LT(points[1].at("gap").get<double>(), 1e-12);
+}
+
+TEST(Check, CountsAndLoads) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  const Outcome outcome = folder.run("check tube.off --json");
+  ASSERT_EQ(outcome.code, 0);
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report.at("points"), 36);
+  EXPECT_EQ(report.at("faces"), 32);
+  EXPECT_EQ(report.at("boundary_loops"), 2);
+  EXPECT_EQ(folder.run("check tube.off").code, 0);
+  EXPECT_EQ(folder.run("--help").code, 0);
+  for (const char* sub : {"run", "deform", "project", "check", "render"}) {
+    const Outcome help = folder.run(std::string(sub) + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("--json"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,111 @@
+#include "read/scene_reader.h"
+#include "runner/program.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace tendril::test {
+namespace {
+
+using Json = nlohmann::json;
+
+runner::SceneFile read(const Json& scene) {
+  const Folder folder;
+  return runner::read_scene(folder.write("scene.json", scene.dump()));
+}
+
+TEST(SceneReader, ASizeListedPerPointIsTheSameAsTheSizeGivenOnce) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["section"]["radius"] = 0.07;
+  const Rod once = read(scene).scene.rods[0];
+  scene["curve_pairs"][0]["section"]["radius"] = {0.07, 0.07, 0.07};
+  const Rod listed = read(scene).scene.rods[0];
+  for (std::size_t i = 0; i < once.p.size(); ++i) {
+    EXPECT_NEAR(listed.mass[i], once.mass[i], 1e-14 * once.mass[i]);
+    EXPECT_NEAR(listed.bend_l[i], once.bend_l[i], 1e-14 * once.bend_l[i]);
+  }
+  const Rod library = make_rod(once.p, once.q, {2e5, 2e5 / 2.8, 1000}, circular_section(0.07));
+  for (std::size_t i = 0; i < once.p.size(); ++i) {
+    EXPECT_NEAR(once.mass[i], library.mass[i], 1e-14 * once.mass[i]);
+    EXPECT_NEAR(once.inertia[i], library.inertia[i], 1e-14 * once.inertia[i]);
+    EXPECT_NEAR(once.bend_m[i], library.bend_m[i], 1e-12 * once.bend_m[i]);
+  }
+  for (std::size_t i = 0; i + 1 < once.p.size(); ++i) {
+    EXPECT_NEAR(once.stretch[i], library.stretch[i], 1e-14 * once.stretch[i]);
+    EXPECT_NEAR(once.twist[i], library.twist[i], 1e-12 * once.twist[i]);
+  }
+}
+
+TEST(SceneReader, ATaperedRodHasTheMassOfItsCone) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["nodes"] = 101;
+  scene["curve_pairs"][0]["section"]["radius"] = {0.1, 0.06, 0.02};
+  const Rod rod = read(scene).scene.rods[0];
+  double mass = 0.0;
+  for (const double m : rod.mass) mass += m;
+  const double cone = 1000 * std::numbers::pi / 3.0 * (0.1 * 0.1 + 0.1 * 0.02 + 0.02 * 0.02);
+  EXPECT_NEAR(mass, cone, 1e-4 * cone);
+  // I goes with the fourth power of the radius: 5^4 from end to end, edges of the same length.
+  EXPECT_NEAR(rod.bend_l.front() / rod.bend_l.back(), 625.0, 1e-9);
+  EXPECT_NEAR(rod.width.front(), 2 * 0.0996, 1e-12);
+}
+
+TEST(SceneReader, NodesAreSpreadEvenlyAndKeepTheEnds) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["points"] = Json::parse("[[0, 0, 0], [0, 0.9, 0], [0, 1, 0]]");
+  const Rod rod = read(scene).scene.rods[0];
+  ASSERT_EQ(rod.p.size(), 6U);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LT((rod.p[static_cast<std::size_t>(i)] - Vec3(0, 0.2 * i, 0)).norm(), 1e-15) << i;
+  }
+}
+
+TEST(SceneReader, AnchorsMoveWithTheVelocityTheySay) {
+  const runner::SceneFile file = read(Json::parse(full_scene()));
+  int moving = 0;
+  for (const Anchor& anchor : file.scene.anchors) {
+    if (!anchor.motion) continue;
+    ++moving;
+    EXPECT_FALSE(anchor.holds_frame);
+    for (const double t : {0.0, 0.13, 0.4}) {
+      const double h = 1e-5;
+      const AnchorPose pose = anchor.motion(t), before = anchor.motion(t - h), after = anchor.motion(t + h);
+      EXPECT_LT((pose.velocity - (after.position - before.position) / (2 * h)).norm(), 1e-7);
+      const Vec3 rate = (after.frame.x - before.frame.x) / (2 * h);
+      EXPECT_LT((pose.angular_velocity.cross(pose.frame.x) - rate).norm(), 1e-7);
+    }
+    const double turn = 0.1 * std::sin(0.5 * std::numbers::pi);
+    const Vec3 rest = file.scene.rods[anchor.rod].p[anchor.node] - Vec3(1, 1, 0);
+    const Vec3 turned(rest.x() * std::cos(turn), rest.x() * std::sin(turn), 0);
+    EXPECT_LT((anchor.motion(0.25).position - Vec3(1, 1, 0) - turned).norm(), 1e-12);
+  }
+  EXPECT_EQ(moving, 2);
+}
+
+TEST(SceneReader, OutputsReachFromTheStartToTheEnd) {
+  Json scene = Json::parse(full_scene());
+  EXPECT_EQ(read(scene).outputs.size(), 6U);
+  EXPECT_EQ(read(scene).outputs.front(), 0.0);
+  EXPECT_EQ(read(scene).outputs.back(), 0.1);
+  scene["simulation"] = {{"duration", 1.0}, {"output_every", 0.1}};
+  EXPECT_EQ(read(scene).outputs.size(), 11U);
+  EXPECT_EQ(read(scene).outputs.back(), 1.0);
+  scene["simulation"] = {{"duration", 1.05}, {"output_every", 0.1}};
+  EXPECT_EQ(read(scene).outputs.size(), 11U);
+}
+
+TEST(SceneReader, TheScenesOfTheTreeAreGood) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TENDRIL_SOURCE_DIR "/examples/scenes")) {
+    if (entry.path().extension() != ".json") continue;
+    EXPECT_NO_THROW({
+      const runner::SceneFile file = runner::read_scene(entry.path().string());
+      const System system(file.scene);
+    }) << entry.path();
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 4);
+}
+
+}  // namespace
+}  // namespace tendril::test
