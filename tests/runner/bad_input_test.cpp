@@ -33,6 +33,7 @@ void expect_refused(const Folder& folder, const std::string& arguments, const st
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_NE(outcome.err.find(place), std::string::npos) << outcome.err << "lacks " << place;
+  EXPECT_EQ(outcome.err.find(".json#"), outcome.err.rfind(".json#")) << "two places: " << outcome.err;
   EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err << "lacks " << says;
   EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
 }

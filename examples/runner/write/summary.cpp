@@ -45,7 +45,7 @@ OrderedJson summarize(const SceneFile& file, const System& system, const bind::P
   out["rhs_evaluations"] = report.evaluations;
   out["smallest_step"] = report.smallest_step;
   out["largest_step"] = report.largest_step;
-  out["largest_frequency"] = report.largest_frequency;
+  out["largest_frequency"] = finite_or_null(report.largest_frequency);
   out["guard_step"] = finite_or_null(report.guard_step);
   out["energy"] = {{"first", to_json(report.first)},
                    {"last", to_json(report.last)},
