@@ -62,7 +62,7 @@ TEST(TwistState, IsKeptOnlyWhereTheSceneTwists) {
             5u);
   Scene scene;
   scene.rods.push_back(test::straight_rod(4, 1e6, 0.01));
-  EXPECT_EQ(System(scene).left_out().size(), 3u);
+  EXPECT_EQ(System(scene).left_out().size(), 4u);
 }
 
 TEST(TwistState, LeftOutGivesTheSamePlanarMotion) {

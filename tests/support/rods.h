@@ -64,7 +64,8 @@ inline State stirred(const System& system, Random& random, double by) {
   return state;
 }
 
-/// Linear and angular momentum, sum m v and sum p x m v + I w t.
+/// Linear and angular momentum, sum m v and sum p x m v + I w t; a joined root has no spin inertia of its
+/// own.
 struct Momentum {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
@@ -73,16 +74,21 @@ inline Momentum momentum(const System& system, const State& state) {
   const std::vector<Frame> frames = system.frames(state, *work);
   const auto n = static_cast<Eigen::Index>(system.node_count());
   const auto m = static_cast<Eigen::Index>(system.twist_count());
+  std::vector<bool> rides(system.rods().size(), false);
+  for (const Joint& joint : system.scene().joints) rides[joint.child] = true;
   Momentum sum;
   std::size_t node = 0;
-  for (const Rod& rod : system.scene().rods)
+  for (std::size_t r = 0; r < system.rods().size(); ++r) {
+    const Rod& rod = system.scene().rods[r];
     for (std::size_t i = 0; i < rod.p.size(); ++i, ++node) {
       const auto k = static_cast<Eigen::Index>(node);
       const Vec3 mv = rod.mass[i] * state.y.segment<3>(3 * n + 3 * k);
       sum.linear += mv;
       sum.angular += at(state.y, node).cross(mv);
-      if (m == n) sum.angular += rod.inertia[i] * state.y[6 * n + m + k] * frames[node].z;
+      if (m == n && !(i == 0 && rides[r]))
+        sum.angular += rod.inertia[i] * state.y[6 * n + m + k] * frames[node].z;
     }
+  }
   return sum;
 }
 

@@ -23,7 +23,7 @@ void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspa
                        : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
   }
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    if (model.holds_position(i)) {
+    if (model.holds_position(i) && model.anchor_index[i] >= 0) {
       const AnchorPose& pose = work.pose[static_cast<std::size_t>(model.anchor_index[i])];
       work.p[i] = pose.position;
       work.v[i] = pose.velocity;
@@ -32,6 +32,20 @@ void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspa
       work.v[i] = y.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i));
     }
   }
+}
+
+/// The root of a child rod takes position and frame from the node it rides on, which is known by then.
+void take_ride(const NodeRange& rod, const System::Model::Ride& ride, Workspace& work) {
+  const std::size_t i = rod.first;
+  work.p[i] = work.p[ride.parent];
+  work.v[i] = work.v[ride.parent];
+  const Frame& f = work.frame[ride.parent];
+  const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
+  work.frame[i] = {outside(ride.rest.x), outside(ride.rest.y), outside(ride.rest.z)};
+  const Vec3 turning = f.z.cross(work.t_rate[ride.parent]) + work.spin[ride.parent] * f.z;
+  work.t_rate[i] = turning.cross(work.frame[i].z);
+  work.spin[i] = turning.dot(work.frame[i].z);
+  work.connection[i] = 0.0;
 }
 
 Evaluation measure_edges(const NodeRange& rod, bool rates, Workspace& work) {
@@ -50,6 +64,7 @@ Evaluation measure_edges(const NodeRange& rod, bool rates, Workspace& work) {
 }
 
 void take_held_frame(const Model& model, std::size_t i, Workspace& work) {
+  if (model.anchor_index[i] < 0) return;  // riding on a parent: see take_ride
   const AnchorPose& pose = work.pose[static_cast<std::size_t>(model.anchor_index[i])];
   work.frame[i] = pose.frame;
   work.t_rate[i] = pose.angular_velocity.cross(pose.frame.z);
@@ -220,6 +235,38 @@ double twist(const Model& model, const State& reference, bool viscous, std::size
   return 0.5 * model.twist[i] * strain * strain;
 }
 
+/// What the root of a child rod feels goes to the node it rides on: the force, and the torque T by
+/// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
+void pass_on(const NodeRange& rod, const System::Model::Ride& ride, Workspace& work) {
+  if (!ride.reaction) return;
+  const std::size_t i = rod.first;
+  const Vec3& t0 = work.frame[i].z;
+  const Vec3& t = work.frame[ride.parent].z;
+  const Vec3 torque = t0.cross(work.g_tangent[i]) + (work.g_spin[i] - work.torque[i].dot(t0)) * t0;
+  work.g_tangent[ride.parent] += torque.cross(t);
+  work.g_spin[ride.parent] += torque.dot(t);
+  work.force[ride.parent] += work.force[i];
+  work.force[i].setZero();
+  work.torque[i].setZero();
+  work.g_tangent[i].setZero();
+  work.g_spin[i] = 0.0;
+}
+
+void pull_back(const Model& model, const NodeRange& rod, Workspace& work) {
+  const std::size_t last = rod.first + rod.count - 1;
+  for (std::size_t i = rod.first; i <= last; ++i) {
+    if (model.holds_frame(i)) continue;
+    const Vec3 g = across(work.frame[i].z, work.g_tangent[i]) / work.bisector[i];
+    if (i > rod.first) work.g_edge[i - 1] += g;
+    if (i < last) work.g_edge[i] += g;
+  }
+  for (std::size_t i = rod.first; i < last; ++i) {
+    const Vec3 f = across(work.e[i], work.g_edge[i]) / work.length[i] + work.g_length[i] * work.e[i];
+    work.force[i] += f;
+    work.force[i + 1] -= f;
+  }
+}
+
 }  // namespace
 
 System::Workspace::Workspace(const Model& model) : pose(model.scene.anchors.size()) {
@@ -235,7 +282,9 @@ Evaluation kinematics(const Model& model, const State& reference, double t, cons
                       bool rates, Workspace& work) {
   if (!y.allFinite()) return {Outcome::not_finite, 0};
   place_nodes(model, t, y, work);
-  for (const NodeRange& rod : model.rods) {
+  for (const std::size_t r : model.order) {
+    const NodeRange& rod = model.rods[r];
+    if (const System::Model::Ride* ride = model.ride_of(r)) take_ride(rod, *ride, work);
     if (const Evaluation at = measure_edges(rod, rates, work); !at.ok()) return at;
     if (const Evaluation at = take_frames(model, reference, y, rod, rates, work); !at.ok()) return at;
   }
@@ -260,19 +309,9 @@ double elastic(const Model& model, const State& reference, bool viscous, Workspa
 }
 
 void add_pulled_back(const Model& model, Workspace& work) {
-  for (const NodeRange& rod : model.rods) {
-    const std::size_t last = rod.first + rod.count - 1;
-    for (std::size_t i = rod.first; i <= last; ++i) {
-      if (model.holds_frame(i)) continue;
-      const Vec3 g = across(work.frame[i].z, work.g_tangent[i]) / work.bisector[i];
-      if (i > rod.first) work.g_edge[i - 1] += g;
-      if (i < last) work.g_edge[i] += g;
-    }
-    for (std::size_t i = rod.first; i < last; ++i) {
-      const Vec3 f = across(work.e[i], work.g_edge[i]) / work.length[i] + work.g_length[i] * work.e[i];
-      work.force[i] += f;
-      work.force[i + 1] -= f;
-    }
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
+    pull_back(model, model.rods[*r], work);
+    if (const System::Model::Ride* ride = model.ride_of(*r)) pass_on(model.rods[*r], *ride, work);
   }
 }
 

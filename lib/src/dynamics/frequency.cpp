@@ -14,7 +14,7 @@ struct MassMetric {
     for (std::size_t i = 0; i < model.nodes; ++i) {
       if (model.holds_position(i)) continue;
       const auto at = 3 * static_cast<Eigen::Index>(i);
-      for (int axis = 0; axis < 3; ++axis) add(at + axis, model.v_begin() + at + axis, model.mass[i]);
+      for (int axis = 0; axis < 3; ++axis) add(at + axis, model.v_begin() + at + axis, model.moved_mass[i]);
     }
     turns_from = position.size();
     for (std::size_t i = 0; i < model.nodes; ++i) {

@@ -83,6 +83,8 @@ System::Model::Model(Scene description) : scene(std::move(description)) {
     flatten(scene.rods[r]);
   }
   place_anchors();
+  place_joints();
+  sort_rods();
   for (std::size_t f = 0; f < scene.forces.size(); ++f) {
     if (!scene.forces[f]) throw InvalidInput("forces[" + std::to_string(f) + "]", "null", "a force");
     scene.forces[f]->check(rods);
@@ -135,6 +137,8 @@ void System::Model::flatten_rest_angles(const NodeRange& range) {
 
 void System::Model::place_anchors() {
   anchor_index.assign(nodes, -1);
+  held_position.assign(nodes, 0);
+  held_frame.assign(nodes, 0);
   for (std::size_t a = 0; a < scene.anchors.size(); ++a) {
     const Anchor& anchor = scene.anchors[a];
     if (anchor.rod >= rods.size())
@@ -148,7 +152,61 @@ void System::Model::place_anchors() {
     if (slot >= 0)
       throw InvalidInput(member("anchors", a, "node"), "anchored twice", "at most one anchor a node");
     slot = static_cast<int>(a);
+    held_position[range.first + anchor.node] = anchor.holds_position;
+    held_frame[range.first + anchor.node] = anchor.holds_frame;
   }
+}
+
+void System::Model::place_joints() {
+  ride_index.assign(rods.size(), -1);
+  moved_mass = mass;
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    const auto refuse = [&](const char* field, const std::string& reason, const std::string& expected) {
+      throw InvalidInput(member("joints", k, field), reason, expected);
+    };
+    const std::string count = "less than the " + std::to_string(rods.size()) + " rods";
+    if (joint.parent >= rods.size()) refuse("parent", std::to_string(joint.parent), count);
+    if (joint.child >= rods.size()) refuse("child", std::to_string(joint.child), count);
+    if (joint.node >= rods[joint.parent].count)
+      refuse("node", std::to_string(joint.node),
+             "less than the parent's " + std::to_string(rods[joint.parent].count));
+    if (ride_index[joint.child] >= 0) refuse("child", "joined twice", "at most one parent");
+    const std::size_t root = rods[joint.child].first;
+    const std::size_t parent = rods[joint.parent].first + joint.node;
+    if (anchor_index[root] >= 0) refuse("child", "its first node is anchored", "a free first node");
+    const double length =
+        (rest_p[root + 1] - rest_p[root]).norm() * static_cast<double>(rods[joint.child].count);
+    if (!((rest_p[root] - rest_p[parent]).norm() <= 1e-9 * length))
+      refuse("node", "the child's first point is elsewhere", "the child to begin at the parent's node");
+    const Frame& f = rest_frame[parent];
+    const Frame& g = rest_frame[root];
+    const auto inside = [&](const Vec3& v) { return Vec3(v.dot(f.x), v.dot(f.y), v.dot(f.z)); };
+    ride_index[joint.child] = static_cast<int>(rides.size());
+    rides.push_back({parent, {inside(g.x), inside(g.y), inside(g.z)}, joint.reaction});
+    held_position[root] = held_frame[root] = 1;
+  }
+}
+
+void System::Model::sort_rods() {
+  // Breadth first from the rods without a parent; what is not reached lies on a cycle.
+  std::vector<std::size_t> rod_of(nodes);
+  for (std::size_t r = 0; r < rods.size(); ++r)
+    std::fill_n(rod_of.begin() + static_cast<std::ptrdiff_t>(rods[r].first), rods[r].count, r);
+  std::vector<std::vector<std::size_t>> children(rods.size());
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    if (const Ride* ride = ride_of(r))
+      children[rod_of[ride->parent]].push_back(r);
+    else
+      order.push_back(r);
+  }
+  for (std::size_t k = 0; k < order.size(); ++k)
+    order.insert(order.end(), children[order[k]].begin(), children[order[k]].end());
+  if (order.size() < rods.size()) throw InvalidInput("joints", "a rod is its own ancestor", "trees of rods");
+  // From the leaves up: a root's mass goes to its parent's node, also where that is itself a root.
+  for (auto r = order.rbegin(); r != order.rend(); ++r)
+    if (const Ride* ride = ride_of(*r); ride && ride->reaction)
+      moved_mass[ride->parent] += moved_mass[rods[*r].first];
 }
 
 std::string System::Model::twist_source(std::size_t r) const {
@@ -157,6 +215,8 @@ std::string System::Model::twist_source(std::size_t r) const {
   if (scene.rods[r].viscosity > 0.0) return "viscosity";
   for (const auto& force : scene.forces)
     if (force->twists()) return "a torque";
+  for (const Joint& joint : scene.joints)
+    if (joint.parent == r || joint.child == r) return "a joint";
   int frames_held = 0;
   for (const Anchor& anchor : scene.anchors) {
     if (anchor.rod != r || !anchor.holds_frame) continue;
@@ -185,6 +245,7 @@ void System::Model::choose_twist() {
       twist_index[rods[r].first + i] = static_cast<int>(twist_nodes++);
   }
   if (scene.forces.empty()) left_out.emplace_back("loads left out: no force in the scene");
+  if (scene.joints.empty()) left_out.emplace_back("joints left out: every rod on its own");
   if (scene.anchors.empty()) left_out.emplace_back("anchors left out: no node is held");
 }
 

@@ -13,6 +13,7 @@ struct System::Model {
 
   Scene scene;
   std::vector<NodeRange> rods;
+  std::vector<std::size_t> order;  ///< of the rods, parents before their children
   std::vector<std::string> left_out;
   std::size_t nodes = 0;
   std::size_t twist_nodes = 0;
@@ -21,21 +22,30 @@ struct System::Model {
   std::vector<Vec3> rest_p;
   std::vector<Frame> rest_frame;
   std::vector<double> mass, inertia, bend_l, bend_m, bend_t, damping;
-  std::vector<Vec3> offset;       ///< (0, r a, r b): q - p in the rest node frame
-  std::vector<int> twist_index;   ///< place among the twist states, -1 where left out
-  std::vector<int> anchor_index;  ///< into scene.anchors, -1 for a free node
+  std::vector<double> moved_mass;               ///< mass with that of the roots merged into the node
+  std::vector<Vec3> offset;                     ///< (0, r a, r b): q - p in the rest node frame
+  std::vector<int> twist_index;                 ///< place among the twist states, -1 where left out
+  std::vector<int> anchor_index;                ///< into scene.anchors, -1 where there is none
+  std::vector<char> held_position, held_frame;  ///< by an anchor, or by riding on a parent
+
+  /// A child's root: where it rides, and its rest frame in its parent's (coordinates of l, m, t).
+  struct Ride {
+    std::size_t parent;  ///< flat node
+    Frame rest;
+    bool reaction;
+  };
+  std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
+  std::vector<Ride> rides;
 
   // Per edge, and per edge and end (2 i at node i, 2 i + 1 at node i + 1).
   std::vector<double> stretch, twist, width, viscosity, rest_length, rest_twist;
   std::vector<double> rest_l, rest_m, rest_t;
 
   bool has_twist(std::size_t node) const { return twist_index[node] >= 0; }
-  bool holds_position(std::size_t node) const {
-    return anchor_index[node] >= 0 &&
-           scene.anchors[static_cast<std::size_t>(anchor_index[node])].holds_position;
-  }
-  bool holds_frame(std::size_t node) const {
-    return anchor_index[node] >= 0 && scene.anchors[static_cast<std::size_t>(anchor_index[node])].holds_frame;
+  bool holds_position(std::size_t node) const { return held_position[node] != 0; }
+  bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
+  const Ride* ride_of(std::size_t rod) const {
+    return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }
 
   // Where the parts of y begin.
@@ -49,6 +59,8 @@ struct System::Model {
   void flatten(const Rod& rod);
   void flatten_rest_angles(const NodeRange& range);
   void place_anchors();
+  void place_joints();
+  void sort_rods();
   void choose_twist();
   std::string twist_source(std::size_t rod) const;
 };

@@ -124,8 +124,8 @@ Evaluation System::derivative(const State& reference, double t, const Eigen::Vec
     const bool held = model.holds_position(i);
     dy.segment<3>(at) = held ? Vec3(Vec3::Zero()) : work.v[i];
     dy.segment<3>(model.v_begin() + at) =
-        held ? Vec3(Vec3::Zero()) : Vec3(work.force[i] / model.mass[i] - model.damping[i] * work.v[i]);
-    if (!held) power -= model.damping[i] * model.mass[i] * work.v[i].squaredNorm();
+        held ? Vec3(Vec3::Zero()) : Vec3(work.force[i] / model.moved_mass[i] - model.damping[i] * work.v[i]);
+    if (!held) power -= model.damping[i] * model.moved_mass[i] * work.v[i].squaredNorm();
     if (!model.has_twist(i)) continue;
     const Eigen::Index k = model.twist_index[i];
     const bool turned = model.holds_frame(i);
@@ -145,6 +145,7 @@ Evaluation System::elastic_gradient(const State& reference, double t, const Eige
   double dissipated = 0.0;
   energy = elastic(model, reference, false, work, dissipated);
   std::fill(work.force.begin(), work.force.end(), Vec3::Zero());
+  std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
   add_pulled_back(model, work);
   gradient.resize(model.v_begin() + static_cast<Eigen::Index>(model.twist_nodes));
   for (std::size_t i = 0; i < model.nodes; ++i) {
@@ -161,7 +162,7 @@ Energies System::energies(const State& state, Workspace& work) const {
   double dissipated = 0.0;
   result.elastic = elastic(model, state, false, work, dissipated);
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    if (!model.holds_position(i)) result.kinetic += 0.5 * model.mass[i] * work.v[i].squaredNorm();
+    if (!model.holds_position(i)) result.kinetic += 0.5 * model.moved_mass[i] * work.v[i].squaredNorm();
     if (model.has_twist(i) && !model.holds_frame(i))
       result.kinetic += 0.5 * model.inertia[i] * work.spin[i] * work.spin[i];
   }

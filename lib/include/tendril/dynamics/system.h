@@ -3,6 +3,7 @@
 #include <tendril/curve/curve_pair.h>
 #include <tendril/dynamics/anchor.h>
 #include <tendril/dynamics/force.h>
+#include <tendril/dynamics/joint.h>
 #include <tendril/dynamics/rod.h>
 
 #include <memory>
@@ -15,6 +16,7 @@ namespace tendril {
 struct Scene {
   std::vector<Rod> rods;
   std::vector<Anchor> anchors;
+  std::vector<Joint> joints;
   std::vector<std::shared_ptr<const Force>> forces;
   /// Whether the twist angle and spin of each node are states. Left out, each rod keeps the directors that
   /// are carried along it without twist, and bends by the angle alone.
