@@ -24,7 +24,7 @@ struct Anchor {
   bool holds_frame = true;
   /// Pose as a pure function of time, its velocities the exact derivatives. Empty: fixed where the node is at
   /// rest.
-  std::function<AnchorPose(double)> motion;
+  std::function<AnchorPose(double)> motion = {};
 };
 
 }  // namespace tendril

@@ -14,9 +14,9 @@ namespace tendril {
 /// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
 /// and speed / l.
 struct SimulationOptions {
-  double tolerance = 1e-6;             ///< of a step's error, relative to those scales, largest component
-  std::optional<double> first_step;    ///< default: a hundredth of the run, capped by the guard
-  std::optional<double> largest_step;  ///< default: the whole run
+  double tolerance = 1e-6;                ///< of a step's error, relative to those scales, largest component
+  std::optional<double> first_step = {};  ///< default: a hundredth of the run, capped by the guard
+  std::optional<double> largest_step = {};  ///< default: the whole run
   double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
   double total_amplification = 0.1;  ///< guard: the same over the whole run
   long work_limit = 20'000'000;      ///< evaluations of the equations

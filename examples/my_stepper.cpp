@@ -1,0 +1,46 @@
+// Extension point: an integrator of one's own on the system's equations. The classic Runge-Kutta method with
+// a fixed step; halving the step divides its error by 2^4.
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/system.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace tendril;
+
+bool step(const System& system, System::Workspace& work, State& state, double h) {
+  Eigen::VectorXd k1, k2, k3, k4;
+  const bool ok = system.derivative(state, state.time, state.y, k1, work).ok() &&
+                  system.derivative(state, state.time + h / 2, state.y + h / 2 * k1, k2, work).ok() &&
+                  system.derivative(state, state.time + h / 2, state.y + h / 2 * k2, k3, work).ok() &&
+                  system.derivative(state, state.time + h, state.y + h * k3, k4, work).ok();
+  if (!ok) return false;
+  state.y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  state.time += h;
+  return system.rebase(state, work).ok();
+}
+
+Vec3 tip_after(const System& system, int steps) {
+  State state = system.rest_state();
+  const auto work = system.make_workspace();
+  for (int i = 0; i < steps; ++i)
+    if (!step(system, *work, state, 0.5 / steps)) return Vec3::Constant(std::nan(""));
+  return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.node_count() - 1));
+}
+
+int main() {
+  std::vector<Vec3> p;
+  for (int i = 0; i <= 8; ++i) p.emplace_back(i / 8.0, 0.02 * i * i / 8.0, 0);
+  Scene scene;
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), {1e5, 4e4, 1000},
+                                elliptic_section(0.03, 0.02)));
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -9.81)));
+  const System system(scene);
+
+  const Vec3 reference = tip_after(system, 3200);
+  const double order =
+      std::log2((tip_after(system, 400) - reference).norm() / (tip_after(system, 800) - reference).norm());
+  std::printf("order %.2f\n", order);
+  return std::abs(order - 4.0) < 0.2 ? 0 : 1;
+}
