@@ -48,6 +48,9 @@ TEST(SceneReader, ATaperedRodHasTheMassOfItsCone) {
   // I goes with the fourth power of the radius: 5^4 from end to end, edges of the same length.
   EXPECT_NEAR(rod.bend_l.front() / rod.bend_l.back(), 625.0, 1e-9);
   EXPECT_NEAR(rod.width.front(), 2 * 0.0996, 1e-12);
+  const double ratio = 0.0996 / 0.0204;  // radii halfway along the first and the last edge
+  EXPECT_NEAR(rod.stretch.front() / rod.stretch.back(), std::pow(ratio, 2), 1e-9);
+  EXPECT_NEAR(rod.twist.front() / rod.twist.back(), std::pow(ratio, 4), 1e-7);
 }
 
 TEST(SceneReader, NodesAreSpreadEvenlyAndKeepTheEnds) {
@@ -82,6 +85,26 @@ TEST(SceneReader, AnchorsMoveWithTheVelocityTheySay) {
   EXPECT_EQ(moving, 2);
 }
 
+TEST(SceneReader, AJointPlacesTheChildAndStiffensItsRoot) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][1].erase("anchors");
+  scene["curve_pairs"][1]["points"] = Json::parse("[[0, 0, 0], [0.2, 0, 0], [0.4, 0, 0], [0.6, 0, 0]]");
+  scene["curve_pairs"][1]["orientation"] = {0, 1, 0};
+  scene["curve_pairs"][1]["joint"] = {
+      {"curve_pair", "stem"}, {"node", 2}, {"relative", true}, {"stiffness", 3}};
+  const runner::SceneFile file = read(scene);
+  ASSERT_EQ(file.scene.joints.size(), 1U);
+  EXPECT_EQ(file.scene.joints[0].parent, 0U);
+  EXPECT_EQ(file.scene.joints[0].child, 1U);
+  EXPECT_TRUE(file.scene.joints[0].reaction);
+  const Rod& child = file.scene.rods[1];
+  EXPECT_EQ(child.p.front(), file.scene.rods[0].p[2]);
+  EXPECT_LT((child.p.back() - child.p.front() - Vec3(0.6, 0, 0)).norm(), 1e-15);
+  EXPECT_NEAR(child.bend_l.front(), 3 * child.bend_l.back(), 1e-15);
+  EXPECT_NEAR(child.twist.front(), 3 * child.twist.back(), 1e-15);
+  EXPECT_NO_THROW(System(file.scene));
+}
+
 TEST(SceneReader, OutputsReachFromTheStartToTheEnd) {
   Json scene = Json::parse(full_scene());
   EXPECT_EQ(read(scene).outputs.size(), 6U);
@@ -104,7 +127,7 @@ TEST(SceneReader, TheScenesOfTheTreeAreGood) {
     }) << entry.path();
     ++scenes;
   }
-  EXPECT_GE(scenes, 4);
+  EXPECT_GE(scenes, 5);
 }
 
 }  // namespace

@@ -68,11 +68,10 @@ std::unique_ptr<Prepared> prepare(const Options& options, int threads) {
     return std::make_unique<Prepared>(options, threads);
   } catch (const InvalidInput& error) {
     // The library speaks of the scene's parts by their numbers; readers have named the file already.
-    if (error.place().rfind("rods[", 0) != 0 && error.place().rfind("anchors", 0) != 0 &&
-        error.place().rfind("forces[", 0) != 0) {
-      throw;
+    for (const char* part : {"rods", "joints", "anchors", "forces"}) {
+      if (error.place().rfind(part, 0) == 0) throw in_scene(read_scene(options.scene), error);
     }
-    throw in_scene(read_scene(options.scene), error);
+    throw;
   }
 }
 

@@ -30,10 +30,51 @@ void read_curve_pairs(const JsonNode& list, SceneFile& out) {
     const Rod& rod = out.scene.rods.back();
     out.thickness.push_back(*std::max_element(rod.width.begin(), rod.width.end()));
     out.reach.push_back(one.has("reach") ? read_along(one, "reach") : std::vector<double>{});
-    if (!one.has("anchors")) continue;
-    for (std::size_t k = 0; k < one.at("anchors").size(); ++k) {
-      const JsonNode anchor = one.at("anchors").at(k);
-      for (const Anchor& a : anchor.locate([&] { return read_anchors(anchor, i, rod); })) {
+  }
+}
+
+/// The child's root moves to its parent's node when its points are relative to it.
+void place_child(const JsonNode& joint, Rod& child, const Vec3& root) {
+  if (!joint.has("relative") || !joint.at("relative").value().get<bool>()) return;
+  for (std::size_t i = 0; i < child.p.size(); ++i) {
+    child.p[i] += root;
+    child.q[i] += root;
+  }
+}
+
+void stiffen_root(Rod& child, double factor) {
+  child.bend_l.front() *= factor;
+  child.bend_m.front() *= factor;
+  child.bend_t.front() *= factor;
+  child.twist.front() *= factor;
+}
+
+/// Parents come before their children in the list, so that relative points find them in place.
+void read_joints(const JsonNode& list, SceneFile& out) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list.at(i).has("joint")) continue;
+    const JsonNode node = list.at(i).at("joint");
+    Joint joint;
+    joint.child = i;
+    joint.parent = read_name(node.at("curve_pair"), out.names);
+    if (joint.parent >= i)
+      node.at("curve_pair").refuse("not listed before this one", "an earlier curve-pair");
+    joint.node = read_node(node.at("node"), out.scene.rods[joint.parent]);
+    joint.reaction = !node.has("reaction") || node.at("reaction").value().get<bool>();
+    place_child(node, out.scene.rods[i], out.scene.rods[joint.parent].p[joint.node]);
+    if (node.has("stiffness")) stiffen_root(out.scene.rods[i], node.at("stiffness").positive());
+    out.scene.joints.push_back(joint);
+    out.joint_places.push_back(node.pointer());
+  }
+}
+
+void read_all_anchors(const JsonNode& list, SceneFile& out) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list.at(i).has("anchors")) continue;
+    const JsonNode anchors = list.at(i).at("anchors");
+    for (std::size_t k = 0; k < anchors.size(); ++k) {
+      const JsonNode anchor = anchors.at(k);
+      for (const Anchor& a : anchor.locate([&] { return read_anchors(anchor, i, out.scene.rods[i]); })) {
         out.scene.anchors.push_back(a);
         out.anchor_places.push_back(anchor.pointer());
       }
@@ -133,6 +174,8 @@ SceneFile read_scene(const std::string& path) {
   out.path = path;
   if (file.has("units")) out.units = file.at("units").value();
   read_curve_pairs(file.at("curve_pairs"), out);
+  read_joints(file.at("curve_pairs"), out);
+  read_all_anchors(file.at("curve_pairs"), out);
   read_mesh_name(file, out);
   if (file.has("forces")) read_forces(file.at("forces"), out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
@@ -151,6 +194,8 @@ InvalidInput in_scene(const SceneFile& file, const InvalidInput& error) {
   std::string pointer;
   if (const std::size_t rod = index_after("rods"); rod != std::string::npos) {
     pointer = "/curve_pairs/" + std::to_string(rod);
+  } else if (const std::size_t j = index_after("joints"); j < file.joint_places.size()) {
+    pointer = file.joint_places[j];
   } else if (const std::size_t a = index_after("anchors"); a < file.anchor_places.size()) {
     pointer = file.anchor_places[a];
   } else if (const std::size_t f = index_after("forces"); f < file.force_places.size()) {

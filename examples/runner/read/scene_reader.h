@@ -17,7 +17,8 @@ struct SceneFile {
   std::vector<std::string> names;          ///< of the curve-pairs
   std::vector<double> thickness;           ///< of the curve-pairs, to draw them where there is no mesh
   std::vector<std::vector<double>> reach;  ///< per curve-pair and node; empty where everything is reached
-  std::vector<std::string> anchor_places;  ///< JSON pointer of each anchor of the scene
+  std::vector<std::string> joint_places;   ///< JSON pointer of each joint of the scene
+  std::vector<std::string> anchor_places;  ///< of each anchor
   std::vector<std::string> force_places;   ///< and of each force
   std::string mesh;                        ///< path, made relative to where the program runs; empty for none
   std::size_t bound_to = 0;                ///< curve-pair that the mesh follows
@@ -33,7 +34,7 @@ struct SceneFile {
 /// or "name:line:column") or FileError. The mesh is not opened.
 SceneFile read_scene(const std::string& path);
 
-/// What the library says of `rods[i]`, `anchors[i]` or `forces[i]`, said of the scene file.
+/// What the library says of `rods[i]`, `joints[i]`, `anchors[i]` or `forces[i]`, said of the scene file.
 InvalidInput in_scene(const SceneFile& file, const InvalidInput& error);
 
 }  // namespace tendril::runner

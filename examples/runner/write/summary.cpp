@@ -55,6 +55,7 @@ OrderedJson summarize(const SceneFile& file, const System& system, const bind::P
   out["curve_pairs"] = file.names;
   out["masses"] = system.node_count();
   out["twist_states"] = system.twist_count();
+  out["joints"] = file.joint_places.size();
   out["anchors"] = file.anchor_places.size();
   out["forces"] = file.force_places.size();
   out["mesh"] = binding == nullptr
