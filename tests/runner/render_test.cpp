@@ -99,6 +99,19 @@ TEST(Render, DrawsStrandsOverTheSurfaceThatHidesThem) {
   EXPECT_EQ(brightness(over, 2, 30), brightness(plain, 2, 30));
 }
 
+TEST(Render, ARodIsAsThickAsItsEdgesAreWide) {
+  const std::vector<Vec3> p{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
+  const CurvePair pair(KnotVector(1, {0, 0, 0.5, 1, 1}), p, {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(2, 1, 0)});
+  const Strand rod = runner::rod_strand(pair, std::vector{0.0, 0.5, 1.0}, std::vector{0.4, 0.2}, 0.12);
+  ASSERT_EQ(rod.radii.size(), rod.points.size());
+  EXPECT_EQ(rod.radii.front(), 0.2);
+  EXPECT_EQ(rod.radii.back(), 0.12);  // the least, instead of 0.1
+  for (std::size_t i = 0; i < rod.points.size(); ++i) {
+    if (std::abs(rod.points[i].x() - 0.5) < 1e-12) EXPECT_NEAR(rod.radii[i], 0.175, 1e-12);
+    if (std::abs(rod.points[i].x() - 1.0) < 1e-12) EXPECT_NEAR(rod.radii[i], 0.15, 1e-12);
+  }
+}
+
 TEST(Render, TheProgramWritesAPngOfTheSizeAsked) {
   const Folder folder;
   folder.write("tube.off", tube_off());

@@ -14,6 +14,7 @@ struct Strand {
   std::vector<Vec3> points;
   double radius = 0.0;
   Vec3f color = Vec3f::Constant(0.5F);  ///< linear light
+  std::vector<double> radii{};          ///< one per point instead of `radius`, when not empty
 };
 
 /// What is in a picture: solid things, and strands drawn over them (faded where they lie behind a surface).
@@ -25,6 +26,11 @@ struct Drawing {
 
 /// The primary curve and its masses, and the orientation curve in a second colour.
 std::vector<Strand> axis_strands(const CurvePair& pair, Points masses, double radius);
+
+/// The rod itself, round and as thick as its edges are wide.
+/// \param parameters  of the masses on the curve \param widths  per edge; at least 2 `least` is drawn
+Strand rod_strand(const CurvePair& pair, std::span<const double> parameters, std::span<const double> widths,
+                  double least);
 
 /// Ray-traced without a display: a sun with soft shadow, light from the sky with ambient occlusion, a ground
 /// that only catches shadows. Each pixel's samples come from a hash of its place, so the picture is the same

@@ -54,7 +54,8 @@ void attach_strand(RTCDevice device, RTCScene scene, const Strand& strand, unsig
                                                          strand.points.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3f p = ((strand.points[i] - centre) / size).cast<float>();
-    vertices[i] = {p.x(), p.y(), p.z(), static_cast<float>(strand.radius / size)};
+    const double radius = strand.radii.empty() ? strand.radius : strand.radii[i];
+    vertices[i] = {p.x(), p.y(), p.z(), static_cast<float>(radius / size)};
   }
   if (tube) {
     const auto segments =

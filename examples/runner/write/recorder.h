@@ -51,6 +51,7 @@ class Recorder : public Follower {
   const std::vector<std::string>& files() const { return files_; }
   const std::vector<Moment>& moments() const { return moments_; }
   const Moment& last() const { return last_; }
+  const Simulation& simulation() const { return simulation_; }
   Camera camera() const { return fit_.camera(); }
 
   /// Writes trajectory.csv: time,rod,node,px,py,pz,qx,qy,qz, numbers in their shortest exact form.

@@ -12,8 +12,12 @@ constexpr double kThinnest = 0.003;  // radius of a line over the size of what i
 
 class Painter {
  public:
-  Painter(const SceneFile& file, bind::PolygonMesh& mesh, const Camera& camera, int threads)
-      : file_(file), mesh_(mesh), camera_(camera), threads_(threads) {}
+  Painter(const SceneFile& file, bind::PolygonMesh& mesh, const Recorder& recorder, int threads)
+      : file_(file),
+        mesh_(mesh),
+        simulation_(recorder.simulation()),
+        camera_(recorder.camera()),
+        threads_(threads) {}
 
   Picture paint(const Moment& moment, const ViewOptions& view) const {
     Drawing drawing;
@@ -24,22 +28,19 @@ class Painter {
     for (std::size_t r = 0; r < moment.pairs.size(); ++r) {
       const double thin = kThinnest * camera_.size;
       const std::vector<Strand> axis = axis_strands(moment.pairs[r], moment.masses[r], thin);
-      const bool bare = drawing.mesh == nullptr || r != file_.bound_to;
-      if (bare) drawing.solid.push_back(thick(axis.front(), std::max(thin, 0.5 * file_.thickness[r])));
+      if (drawing.mesh == nullptr || r != file_.bound_to) {
+        drawing.solid.push_back(
+            rod_strand(moment.pairs[r], simulation_.parameters(r), file_.scene.rods[r].width, thin));
+      }
       if (file_.draw_axis) drawing.over.insert(drawing.over.end(), axis.begin(), axis.end());
     }
     return draw(drawing, camera_, view, threads_);
   }
 
  private:
-  static Strand thick(Strand strand, double radius) {
-    strand.radius = radius;
-    strand.color = Vec3f(0.40F, 0.30F, 0.22F);
-    return strand;
-  }
-
   const SceneFile& file_;
   bind::PolygonMesh& mesh_;
+  const Simulation& simulation_;
   Camera camera_;
   int threads_;
 };
@@ -55,7 +56,7 @@ std::string caption(double time) {
 
 bool draw_run(const SceneFile& file, bind::PolygonMesh& mesh, Recorder& recorder, int threads,
               const std::function<bool(double)>& go_on) {
-  const Painter painter(file, mesh, recorder.camera(), threads);
+  const Painter painter(file, mesh, recorder, threads);
   ViewOptions small = file.view;
   small.width = std::max(16, file.view.width / 2);
   small.height = std::max(16, file.view.height / 2);
