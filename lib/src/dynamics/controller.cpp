@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+
+#include "words.h"
 
 namespace tendril {
 namespace {
@@ -16,31 +17,6 @@ constexpr double kGrow = 5.0;
 constexpr long kGuardInterval = 64;  // accepted steps between estimates of the largest frequency
 constexpr int kLanczosVectors = 16;
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
-constexpr double kEnergyLimit = 1e-2;
-
-const char* describe(Evaluation::Outcome outcome) {
-  switch (outcome) {
-    case Evaluation::Outcome::ok:
-      return "error above the tolerance";
-    case Evaluation::Outcome::zero_edge:
-      return "edge of length 0";
-    case Evaluation::Outcome::fold_back:
-      return "edges folded back on each other";
-    case Evaluation::Outcome::turned_too_far:
-      return "tangent turned more than 126 degrees";
-    case Evaluation::Outcome::not_finite:
-      return "a number that is not finite";
-  }
-  return "";
-}
-
-template <typename... Parts>
-std::string sentence(const Parts&... parts) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  (out << ... << parts);
-  return out.str();
-}
 
 }  // namespace
 
@@ -55,6 +31,8 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
+  if (options.method != Method::cash_karp) fixed_ = make_stepper(options.method, system);
+  report_.method = fixed_ ? fixed_->name() : stepper_.name();
   measure_scales();
   now_ = report_.first = system_.energies(state_, workspace());
   start_ = state_.time;
@@ -86,7 +64,8 @@ void Controller::begin(double until) {
   ended_ = false;
   report_.stop = Stop::finished;
   report_.reason.clear();
-  since_guard_ = kGuardInterval;
+  since_guard_ = std::numeric_limits<long>::max();
+  if (fixed_) fixed_->restart();
   const double run = until - state_.time;
   if (h_ == 0.0) h_ = options_.first_step.value_or(run / 100);
 }
@@ -112,7 +91,7 @@ void Controller::guard() {
         std::min(guard_step(frequency, alpha, beta, limits), guard_step(frequency, alpha, most_beta, limits));
   }
   const double needed = 6.0 * (until_ - state_.time) / report_.guard_step;
-  const double left = static_cast<double>(options_.work_limit - stepper_.evaluations() - other_evaluations_);
+  const double left = static_cast<double>(options_.work_limit - evaluations());
   if (needed > left)
     stop(Stop::too_stiff,
          sentence("at time ", state_.time, " the fastest motion has ", frequency,
@@ -120,11 +99,16 @@ void Controller::guard() {
                   ": the rest of the run would need about ", needed, " evaluations and ", left, " are left"));
 }
 
-Controller::Aim Controller::aim(double target) {
-  double h = std::min({h_, report_.guard_step, options_.largest_step.value_or(until_ - start_)});
+bool Controller::cut_at_break(double& target) const {
   const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), state_.time);
   const bool break_first = next != breaks_.end() && *next <= target;
   if (break_first) target = *next;
+  return break_first;
+}
+
+Controller::Aim Controller::aim(double target) const {
+  double h = std::min({h_, report_.guard_step, options_.largest_step.value_or(until_ - start_)});
+  const bool break_first = cut_at_break(target);
   const double left = target - state_.time;
   if (h >= left * (1.0 - 1e-10)) return {left, target, break_first};
   // Two equal steps rather than one and a crumb.
@@ -132,18 +116,25 @@ Controller::Aim Controller::aim(double target) {
   return {h, state_.time + h, false};
 }
 
+/// Before a jump the stages must not see what comes after it: the step ends just before.
+double Controller::seen(const Aim& aim) const {
+  return aim.at_break ? std::nextafter(aim.time, state_.time) - state_.time : aim.h;
+}
+
+bool Controller::out_of_work() {
+  if (evaluations() < options_.work_limit) return false;
+  stop(Stop::work_limit,
+       sentence("at time ", state_.time, " the limit of ", options_.work_limit, " evaluations was reached"));
+  return true;
+}
+
 bool Controller::step_towards(double target) {
+  if (fixed_) return fixed_step_towards(target);
   if (since_guard_ >= kGuardInterval) guard();
   Evaluation last;
-  while (!ended_) {
-    if (stepper_.evaluations() + other_evaluations_ >= options_.work_limit) {
-      stop(Stop::work_limit, sentence("at time ", state_.time, " the limit of ", options_.work_limit,
-                                      " evaluations was reached"));
-      break;
-    }
+  while (!ended_ && !out_of_work()) {
     const Aim at = aim(target);
-    // Before a jump the stages must not see what comes after it: the step ends just before.
-    const double h = at.at_break ? std::nextafter(at.time, state_.time) - state_.time : at.h;
+    const double h = seen(at);
     if (!(state_.time + h > state_.time)) {
       // Nothing between here and the jump.
       state_.time = at.time;
@@ -187,15 +178,19 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 
 void Controller::accept(const Aim& aim, double error) {
   stepper_.restart();
-  ++report_.accepted;
-  ++since_guard_;
-  report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
-  report_.largest_step = std::max(report_.largest_step, aim.h);
   const double factor = error > 0.0 ? std::min(kGrow, kSafety * std::pow(error, -0.2)) : kGrow;
   // A step cut short by an output says little about the next one.
   const bool cut = aim.h < 0.99 * h_;
   h_ = cut ? std::max(h_ * std::min(factor, 1.0), aim.h * factor) : aim.h * factor;
   if (aim.at_break) h_ = std::min(h_, aim.h);
+  record(aim);
+}
+
+void Controller::record(const Aim& aim) {
+  ++report_.accepted;
+  ++since_guard_;
+  report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
+  report_.largest_step = std::max(report_.largest_step, aim.h);
   const auto n = static_cast<Eigen::Index>(system_.node_count());
   for (Eigen::Index i = 0; i < n; ++i) speed_ = std::max(speed_, state_.y.segment<3>(3 * n + 3 * i).norm());
   if (report_.accepted % kEnergyInterval == 0) check_energy();
@@ -232,7 +227,7 @@ void Controller::check_energy() {
       std::max(energy_scale_, now_.kinetic + std::abs(now_.elastic - report_.first.elastic) +
                                   std::abs(now_.potential - report_.first.potential) + std::abs(work));
   const double off = imbalance();
-  if (!ended_ && std::abs(off) > std::max(kEnergyLimit, options_.tolerance))
+  if (!ended_ && std::abs(off) > std::max(options_.energy_limit, options_.tolerance))
     stop(Stop::energy_lost,
          sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
 }
@@ -257,7 +252,7 @@ Report Controller::report() {
   check_energy();
   Report result = report_;
   result.time = state_.time;
-  result.evaluations = stepper_.evaluations() + other_evaluations_;
+  result.evaluations = evaluations();
   result.last = now_;
   result.imbalance = imbalance();
   result.work = state_.y[state_.y.size() - 1] + report_.work;

@@ -5,8 +5,9 @@
 
 namespace tendril {
 
-/// Step control of a run: the controller of thesis 3.34, the guard against amplified oscillations, the
-/// limits, and the book of what happened.
+/// Step control of a run: the controller of thesis 3.34 with the guard against amplified oscillations, or
+/// fixed steps with their stability limits (fixed_step.cpp); the limits on energy and work, and the book of
+/// what happened.
 class Controller {
  public:
   Controller(const System& system, State start, const SimulationOptions& options);
@@ -27,11 +28,21 @@ class Controller {
     double h, time;
     bool at_break;
   };
-  Aim aim(double target);
+  bool cut_at_break(double& target) const;
+  Aim aim(double target) const;
+  Aim fixed_aim(double target) const;
+  double seen(const Aim& aim) const;
+  bool fixed_step_towards(double target);
+  void guard_fixed_step();
+  long evaluations() const {
+    return stepper_.evaluations() + other_evaluations_ + (fixed_ ? fixed_->evaluations() : 0);
+  }
+  bool out_of_work();
   double error_norm(const Eigen::VectorXd& error) const;
   void measure_scales();
   void guard();
   void accept(const Aim& aim, double error);
+  void record(const Aim& aim);
   bool reject(const Aim& aim, double factor, const Evaluation& why);
   void check_energy();
   double imbalance() const;
@@ -40,8 +51,9 @@ class Controller {
 
   const System& system_;
   SimulationOptions options_;
-  State state_;
+  State state_, next_;
   CashKarp stepper_;
+  std::unique_ptr<Stepper> fixed_;  ///< null where Cash-Karp chooses the steps
   Eigen::VectorXd y_, error_;
 
   double until_ = 0.0, start_ = 0.0, h_ = 0.0;

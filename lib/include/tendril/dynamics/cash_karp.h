@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tendril/dynamics/system.h>
+#include <tendril/dynamics/stepper.h>
 
 #include <array>
 
@@ -24,7 +24,7 @@ struct CashKarpTableau {
 };
 
 /// One step of the pair, with its own scratch space.
-class CashKarp {
+class CashKarp : public Stepper {
  public:
   explicit CashKarp(const System& system);
 
@@ -34,12 +34,13 @@ class CashKarp {
   Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error);
 
   /// Advances the state by a step of fixed size: step, then System::rebase.
-  Evaluation advance(State& state, double h);
+  Evaluation advance(State& state, double h) override;
 
   /// Forgets the kept derivative: call when the state has changed other than by advance.
-  void restart();
+  void restart() override;
 
-  long evaluations() const { return evaluations_; }
+  long evaluations() const override { return evaluations_; }
+  const char* name() const override { return "Cash-Karp 4(5)"; }
   System::Workspace& workspace() { return *work_; }
 
  private:

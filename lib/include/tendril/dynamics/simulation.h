@@ -2,7 +2,7 @@
 
 #include <tendril/curve/fit.h>
 #include <tendril/dynamics/follower.h>
-#include <tendril/dynamics/system.h>
+#include <tendril/dynamics/stepper.h>
 
 #include <functional>
 #include <optional>
@@ -14,11 +14,16 @@ namespace tendril {
 /// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
 /// and speed / l.
 struct SimulationOptions {
+  Method method = Method::cash_karp;
+  /// Step of every method but Cash-Karp, which has none. Stretches between outputs, jumps of a force and the
+  /// end are divided into equal steps of at most this.
+  std::optional<double> fixed_step = {};
   double tolerance = 1e-6;                ///< of a step's error, relative to those scales, largest component
   std::optional<double> first_step = {};  ///< default: a hundredth of the run, capped by the guard
   std::optional<double> largest_step = {};  ///< default: the whole run
   double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
   double total_amplification = 0.1;  ///< guard: the same over the whole run
+  double energy_limit = 1e-2;        ///< of the energy balance, relative to the largest energy seen
   long work_limit = 20'000'000;      ///< evaluations of the equations
   int degree = 3;                    ///< of the curves through the masses (lower for rods of fewer masses)
   Parametrisation parametrisation = Parametrisation::centripetal;
@@ -28,22 +33,25 @@ struct SimulationOptions {
 enum class Stop {
   finished,
   cancelled,       ///< the progress callback asked for it
-  too_stiff,       ///< the guard's step would need more evaluations than the work limit
+  too_stiff,       ///< the guard's step would need more evaluations than the work limit, or the fixed step is
+                   ///< beyond the method's stability limit
   work_limit,      ///< the limit was reached on the way
   step_underflow,  ///< no step large enough to move the clock meets the tolerance
-  not_evaluable,   ///< zero-length edge, fold-back or a number that is not finite, at every step size
-  energy_lost,     ///< the energy balance is off by more than 1e-2 of the largest energy seen
+  not_evaluable,   ///< zero-length edge, fold-back, a number that is not finite or an implicit step without
+                   ///< solution, at every step size (or the fixed one)
+  energy_lost,     ///< the energy balance is off by more than the energy limit
 };
 const char* to_string(Stop stop);
 
 struct Report {
   Stop stop = Stop::finished;
+  std::string method;  ///< the stepper's name
   std::string reason;  ///< one sentence with time, rod, node and numbers; empty when finished
   double time = 0.0;
   long accepted = 0, rejected = 0, evaluations = 0;
   double smallest_step = 0.0, largest_step = 0.0;
   double largest_frequency = 0.0;  ///< last estimate [rad / time]
-  double guard_step = 0.0;         ///< last cap on the step by the guard; infinite when nothing oscillates
+  double guard_step = 0.0;         ///< last cap on the step by the guard; infinite when nothing limits it
   Energies first, last;
   double work = 0.0;       ///< by forces without energy, damping and anchors
   double imbalance = 0.0;  ///< (last - first - work) / largest energy seen
@@ -51,7 +59,9 @@ struct Report {
 
 /// Moves a system by Cash-Karp 4(5) with the controller of thesis 3.34 (safety 0.93, exponents 0.2 and 0.25,
 /// factor bounded to [0.2, 5]) under a guard: the pair amplifies undamped oscillations (|R(iy)| - 1 = y^6 /
-/// 7200), so the step is capped by an estimate of the largest frequency. Same scene, same bits.
+/// 7200), so the step is capped by an estimate of the largest frequency. Or, when the options say so, by a
+/// method of fixed step under the same watch on energy and work; velocity Verlet and Runge-Kutta 4 refuse
+/// steps beyond their stability limits. Same scene, same bits.
 class Simulation {
  public:
   enum class When { accepted_step, output };

@@ -38,7 +38,14 @@ struct State {
 
 /// Whether the equations could be evaluated, and if not, why and where.
 struct Evaluation {
-  enum class Outcome { ok, zero_edge, fold_back, turned_too_far, not_finite } outcome = Outcome::ok;
+  enum class Outcome {
+    ok,
+    zero_edge,
+    fold_back,
+    turned_too_far,
+    not_finite,
+    not_converged  ///< an implicit step's equations
+  } outcome = Outcome::ok;
   std::size_t node = 0;  ///< flat index
   bool ok() const { return outcome == Outcome::ok; }
 };
@@ -104,6 +111,7 @@ class System {
   double largest_frequency(const State& state, int vectors, Workspace& work) const;
 
   struct Model;  ///< the flat arrays, private to the module
+  const Model& model() const { return *model_; }
 
  private:
   std::unique_ptr<const Model> model_;
