@@ -12,7 +12,10 @@ namespace {
 std::vector<Vec3> cloud(std::uint64_t seed, int count) {
   test::Random random(seed);
   std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) points.push_back(Vec3(random.uniform(-6, 6), 0, 0) + random.in_cube(2));
+  for (int i = 0; i < count; ++i) {
+    const Vec3 around = random.in_cube(2);
+    points.push_back(Vec3(random.uniform(-6, 6), 0, 0) + around);
+  }
   return points;
 }
 

@@ -200,7 +200,7 @@ TEST(Inspect, FindsFacesThatAreFlatUpToRounding) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   PolygonMesh mesh;
   for (std::uint32_t f = 0; f < 200; ++f) {
-    const Vec3 direction(uniform(random), uniform(random), uniform(random));
+    const Vec3 direction{uniform(random), uniform(random), uniform(random)};
     for (int k = 0; k < 3; ++k) mesh.points.push_back(uniform(random) * direction);
     add_face(mesh, {3 * f, 3 * f + 1, 3 * f + 2});
   }
@@ -226,7 +226,11 @@ TEST(Inspect, AgreesWithCountingOnRandomSoups) {
   std::mt19937 random(11);
   for (int round = 0; round < 200; ++round) {
     PolygonMesh mesh = mesh_of({}, {});
-    for (int v = 0; v < 9; ++v) mesh.points.emplace_back(random() % 3, random() % 3, random() % 2);
+    for (int v = 0; v < 9; ++v) {
+      const auto x = static_cast<double>(random() % 3);
+      const auto y = static_cast<double>(random() % 3);
+      mesh.points.emplace_back(x, y, random() % 2);
+    }
     std::multiset<Edge> uses;
     for (int f = 0; f < 8; ++f) {
       Ids face;

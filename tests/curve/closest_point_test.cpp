@@ -104,7 +104,8 @@ TEST(NearestPoint, IsNotHeldByAFalseRootAtRest) {
   test::DenseReference reference(curve, 400);
   Random random(8);
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 p = b + std::pow(10.0, random.uniform(-8.0, 0.0)) * random.in_cube();
+    const Vec3 way = random.in_cube();
+    const Vec3 p = b + std::pow(10.0, random.uniform(-8.0, 0.0)) * way;
     const Projection at = projector.nearest(p);
     EXPECT_LE(at.distance, reference.distance(p) + 1e-13);
   }

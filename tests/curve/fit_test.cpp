@@ -15,9 +15,10 @@ std::vector<Vec3> random_chain(std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<Vec3> points{Vec3::Zero()};
   // Steps over two decades: averaged knots of an uneven chain.
-  for (int i = 1; i < count; ++i)
-    points.push_back(points.back() +
-                     std::pow(10.0, random.uniform(-1, 1)) * (Vec3::UnitX() + random.in_cube(0.7)));
+  for (int i = 1; i < count; ++i) {
+    const Vec3 way = Vec3::UnitX() + random.in_cube(0.7);
+    points.push_back(points.back() + std::pow(10.0, random.uniform(-1, 1)) * way);
+  }
   return points;
 }
 

@@ -71,7 +71,8 @@ TEST(AxialRecord, ReturnsTheRestShape) {
   const CurvePair pair = random_pair(2, 30);
   Random random(9);
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 point = Vec3(random.uniform(-2, 32), 0, 0) + random.in_cube(3);
+    const Vec3 around = random.in_cube(3);
+    const Vec3 point = Vec3(random.uniform(-2, 32), 0, 0) + around;
     const AxialPoint record = to_axial(pair, random.uniform(), point);
     EXPECT_LT((from_axial(pair, record) - point).norm(), 1e-13 * 30);
   }
@@ -111,8 +112,9 @@ TEST(SmallestRotation, CarriesTheDirectionAndKeepsLengths) {
   Random random(8);
   for (int i = 0; i < 500; ++i) {
     const Vec3 a = random.in_cube().normalized();
-    Vec3 b = random.in_cube().normalized();
-    if (i % 5 == 0) b = (-a + std::pow(10.0, -random.uniform(1, 5)) * random.in_cube()).normalized();
+    Vec3 b = random.in_cube();
+    if (i % 5 == 0) b = -a + std::pow(10.0, -random.uniform(1, 5)) * b;
+    b.normalize();
     const Vec3 v = random.in_cube();
     EXPECT_NEAR((rotate_smallest(a, b, a) - b).norm(), 0.0, 2e-15 / std::max(1e-12, (a + b).norm()));
     EXPECT_NEAR(rotate_smallest(a, b, v).norm(), v.norm(), 2e-15 / std::max(1e-12, (a + b).norm()));

@@ -6,7 +6,8 @@
 
 namespace tendril::test {
 
-/// SplitMix64: the same numbers on every machine and library, unlike the standard distributions.
+/// SplitMix64: the same numbers on every machine and library, unlike the standard distributions. Two draws
+/// in one expression may come in either order, so each has a statement of its own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -26,8 +26,10 @@ inline Rod straight_rod(int edges, double young, double radius, double density =
 /// A rod with everything uneven: curved and twisted rest shape, springs of all kinds, masses over a decade.
 inline Rod uneven_rod(Random& random, int nodes) {
   std::vector<Vec3> p{Vec3::Zero()};
-  for (int i = 1; i < nodes; ++i)
-    p.push_back(p.back() + random.uniform(0.5, 1.5) * (Vec3::UnitX() + random.in_cube(0.5)));
+  for (int i = 1; i < nodes; ++i) {
+    const Vec3 way = Vec3::UnitX() + random.in_cube(0.5);
+    p.push_back(p.back() + random.uniform(0.5, 1.5) * way);
+  }
   std::vector<Vec3> q;
   for (int i = 0; i < nodes; ++i)
     q.push_back(p[static_cast<std::size_t>(i)] + rotate_about(Vec3::UnitX(), 0.4 * i, Vec3::UnitZ()) +
