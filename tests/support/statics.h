@@ -42,6 +42,47 @@ inline Eigen::VectorXd elastic_gradient(const System& system, const FreeCoordina
   return gradient(free.gradient);
 }
 
+/// The same by (p, theta) away from the reference, where theta's axis is carried along: what a Hessian is the
+/// derivative of. The carried director spins by -((t_s x t).dt) / (1 + t_s.t) of its own.
+inline Eigen::VectorXd coordinate_gradient(const System& system, const FreeCoordinates& free,
+                                           const State& state, const Eigen::VectorXd& y) {
+  const auto work = system.make_workspace();
+  double unused = 0.0;
+  Eigen::VectorXd gradient;
+  const double h = 1e-6;
+  if (!system.elastic_gradient(state, state.time, y, unused, gradient, *work).ok())
+    throw std::runtime_error("no gradient");
+  const auto n = static_cast<Eigen::Index>(system.node_count());
+  const Eigen::VectorXd torque = gradient.tail(gradient.size() - 3 * n);
+  if (torque.size() == 0) return gradient(free.gradient);
+  // t_s x t weighted with the torques is pulled back to the positions by differences: it vanishes at the
+  // reference.
+  const auto tangents = [&](const Eigen::VectorXd& at) {
+    State moved = state;
+    moved.y = at;
+    std::vector<Vec3> t;
+    for (const Frame& frame : system.frames(moved, *work)) t.push_back(frame.z);
+    return t;
+  };
+  const std::vector<Vec3> now = tangents(y);
+  for (const Eigen::Index k : free.gradient) {
+    if (k >= 3 * n) continue;
+    Eigen::VectorXd up = y;
+    Eigen::VectorXd down = y;
+    up[k] += h;
+    down[k] -= h;
+    const std::vector<Vec3> above = tangents(up);
+    const std::vector<Vec3> below = tangents(down);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const Vec3 rate = (above[i] - below[i]) / (2 * h);
+      const Vec3& from = state.tangent[i];
+      gradient[k] -=
+          torque[static_cast<Eigen::Index>(i)] * from.cross(now[i]).dot(rate) / (1 + from.dot(now[i]));
+    }
+  }
+  return gradient(free.gradient);
+}
+
 /// Hessian of the elastic energy by central differences of the exact gradient, made symmetric.
 inline Eigen::MatrixXd stiffness(const System& system, const FreeCoordinates& free, const State& state,
                                  double h = 1e-6) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <Eigen/SparseCore>
+
+namespace tendril {
+
+/// Exact Hessian of the elastic energy at a state that is its own reference (as after System::rebase):
+/// symmetric, in the coordinates and order of System::elastic_gradient (3n positions, then m angles). Rows of
+/// held coordinates are not removed. A node couples with its third neighbour; O(n) time and entries. Throws
+/// InvalidInput for a system with joints.
+Evaluation elastic_stiffness(const System& system, const State& state, Eigen::SparseMatrix<double>& stiffness,
+                             System::Workspace& work);
+
+}  // namespace tendril

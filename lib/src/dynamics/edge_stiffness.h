@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "workspace.h"
+
+namespace tendril {
+
+/// Second derivatives of the elastic energy by the positions of four neighbouring nodes and the angles of the
+/// middle two: what the springs of one edge see. Order: p_{i-1}, p_i, p_{i+1}, p_{i+2}, theta_i, theta_{i+1};
+/// what is not there is 0.
+using EdgeStiffness = Eigen::Matrix<double, 14, 14>;
+
+/// Exact stiffness of edge i in the coordinates (p, theta) about a state that is its own reference. The
+/// workspace must hold the kinematics, the elastic gradient and its pull-back (kinematics, elastic,
+/// add_pulled_back in that order).
+///
+/// Three levels, each exact: the springs' second derivatives by the unit edge e, the tangents t and the
+/// angles theta; the curvature of t(e) weighted with dE/dt; the curvature of e(p) weighted with dE/de. The
+/// last two are counted with the edge, and with the edge that begins at the node.
+EdgeStiffness edge_stiffness(const System::Model& model, const NodeRange& rod, std::size_t i,
+                             const State& reference, const System::Workspace& work);
+
+}  // namespace tendril

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+#include <tendril/base/error.h>
+#include <tendril/dynamics/stiffness.h>
+
+#include "support/statics.h"
+
+namespace tendril {
+namespace {
+
+using test::Random;
+
+/// Largest difference between the exact Hessian and central differences of order 4 of the exact gradient,
+/// relative to the Hessian's largest entry, over the free coordinates.
+double hessian_error(const System& system, const State& state, double h) {
+  const auto work = system.make_workspace();
+  Eigen::SparseMatrix<double> sparse;
+  if (!elastic_stiffness(system, state, sparse, *work).ok()) return HUGE_VAL;
+  const Eigen::MatrixXd exact(sparse);
+  const test::FreeCoordinates free(system);
+  double worst = (exact - exact.transpose()).cwiseAbs().maxCoeff();
+  for (std::size_t k = 0; k < free.y.size(); ++k) {
+    const auto gradient_at = [&](double by) {
+      Eigen::VectorXd y = state.y;
+      y[free.y[k]] += by;
+      return test::coordinate_gradient(system, free, state, y);
+    };
+    const Eigen::VectorXd difference =
+        (8 * (gradient_at(h) - gradient_at(-h)) - (gradient_at(2 * h) - gradient_at(-2 * h))) / (12 * h);
+    worst = std::max(worst, (difference - exact.col(free.gradient[k])(free.gradient)).cwiseAbs().maxCoeff());
+  }
+  return worst / exact.cwiseAbs().maxCoeff();
+}
+
+/// Of two steps the better: where an edge is close to its rest cone's tip the third spring changes over a
+/// short way.
+double hessian_error(const System& system, const State& state) {
+  return std::min(hessian_error(system, state, 1e-3), hessian_error(system, state, 1e-4));
+}
+
+enum class Keep { all, stretch, bend_l, bend_m, bend_t, twist };
+
+class EverySpring : public testing::TestWithParam<Keep> {};
+INSTANTIATE_TEST_SUITE_P(Springs, EverySpring,
+                         testing::Values(Keep::all, Keep::stretch, Keep::bend_l, Keep::bend_m, Keep::bend_t,
+                                         Keep::twist));
+
+Rod rod_with(Keep what, Random& random) {
+  Rod rod = test::uneven_rod(random, 8);
+  const auto drop = [&](Keep which, std::vector<double>& values) {
+    if (what != Keep::all && what != which) std::fill(values.begin(), values.end(), 0.0);
+  };
+  drop(Keep::stretch, rod.stretch);
+  drop(Keep::bend_l, rod.bend_l);
+  drop(Keep::bend_m, rod.bend_m);
+  drop(Keep::bend_t, rod.bend_t);
+  drop(Keep::twist, rod.twist);
+  return rod;
+}
+
+TEST_P(EverySpring, HasTheExactHessian) {
+  Random random(41);
+  for (int trial = 0; trial < 6; ++trial) {
+    Scene scene;
+    scene.rods.push_back(rod_with(GetParam(), random));
+    scene.twist = Scene::Twist::everywhere;
+    if (trial % 2) scene.anchors = {{0, 0, true, true, {}}, {0, 4, false, true, {}}};
+    const System system(scene);
+    EXPECT_LT(hessian_error(system, test::stirred(system, random, 0.2)), 1e-8) << trial;
+  }
+}
+
+TEST(Stiffness, IsExactWithoutTwistState) {
+  Random random(42);
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(9, 1e4, 0.05));
+  scene.anchors.push_back({0, 0, true, true, {}});
+  const System system(scene);
+  ASSERT_EQ(system.twist_count(), 0u);
+  EXPECT_LT(hessian_error(system, system.rest_state()), 1e-8);
+  for (int trial = 0; trial < 6; ++trial)
+    EXPECT_LT(hessian_error(system, test::stirred(system, random, 0.02)), 1e-8) << trial;
+}
+
+}  // namespace
+}  // namespace tendril
