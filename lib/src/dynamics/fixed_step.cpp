@@ -65,8 +65,9 @@ bool Controller::fixed_step_towards(double target) {
     next_ = state_;
     const Evaluation result = fixed_->advance(next_, h);
     if (!result.ok()) {
-      stop(Stop::not_evaluable,
-           sentence("at time ", state_.time, ", ", place(result.node), ": ", describe(result.outcome)));
+      const bool placed = result.outcome != Evaluation::Outcome::not_converged;
+      stop(Stop::not_evaluable, sentence("at time ", state_.time, placed ? ", " + place(result.node) : "",
+                                         ": ", describe(result.outcome)));
       return false;
     }
     std::swap(state_, next_);
