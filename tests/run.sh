@@ -3,15 +3,18 @@
 #   tests/run.sh              the short tests
 #   tests/run.sh --long       the long ones too
 #   tests/run.sh --sanitize   in a build with the address and undefined-behaviour sanitizers
+#   tests/run.sh --thread     the programs that use threads, in a build with the thread sanitizer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=release
 labels='^short$'
+targets=()
 for argument in "$@"; do
   case $argument in
     --long) labels='^(short|long)$' ;;
     --sanitize) preset=sanitize ;;
-    *) sed -n '2,5s/^# //p' "$0" >&2; exit 2 ;;
+    --thread) preset=thread labels='^threads$' targets=(--target threads) ;;
+    *) sed -n '2,6s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -20,5 +23,5 @@ need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" 
 bash .cmake/cgal-meshes.sh build/cgal-meshes
 export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
 cmake --preset "$preset" -Wno-dev -DTENDRIL_TESTS=ON
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" "${targets[@]}"
 ctest --preset "$preset" --label-regex "$labels" --parallel "$(nproc)" --no-tests=error </dev/null
