@@ -9,7 +9,7 @@ namespace {
 
 #ifdef TENDRIL_LONG
 constexpr double kDuration = 60.0;
-constexpr double kVerletEnergy = 0.04;  // measured 0.029
+constexpr double kVerletEnergy = 0.05;  // measured 0.034
 #else
 constexpr double kDuration = 6.0;
 constexpr double kVerletEnergy = 0.025;  // measured 0.0193

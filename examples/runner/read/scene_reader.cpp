@@ -111,11 +111,26 @@ std::vector<double> read_outputs(const JsonNode& simulation, double duration) {
   return outputs;
 }
 
+/// Cash-Karp and RODAS choose their own steps; every other method needs one.
+void read_method(const JsonNode& simulation, SimulationOptions& options) {
+  const std::string name = simulation.text_or("method", to_string(options.method));
+  for (const Method method :
+       {Method::rodas, Method::verlet, Method::runge_kutta4, Method::explicit_euler, Method::backward_euler})
+    if (name == to_string(method)) options.method = method;
+  if (!chooses_steps(options.method)) {
+    options.fixed_step = simulation.at("fixed_step").positive();
+  } else if (simulation.has("fixed_step")) {
+    simulation.at("fixed_step")
+        .refuse("a step for " + name, "a method of fixed step: " + name + " chooses its own");
+  }
+}
+
 void read_simulation(const JsonNode& simulation, SceneFile& out) {
   out.duration = simulation.at("duration").positive();
   out.outputs = read_outputs(simulation, out.duration);
   SimulationOptions& options = out.options;
   options.tolerance = simulation.number_or("tolerance", options.tolerance);
+  read_method(simulation, options);
   if (simulation.has("degree"))
     options.degree = static_cast<int>(simulation.at("degree").integer(1, kMaxDegree));
   options.parametrisation = read_parametrisation(simulation);

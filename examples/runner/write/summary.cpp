@@ -36,7 +36,8 @@ OrderedJson summarize(const SceneFile& file, const System& system, const bind::P
   OrderedJson out;
   out["status"] = tendril::to_string(report.stop);
   out["reason"] = report.reason;
-  out["integrator"] = "Cash-Karp 4(5)";
+  out["integrator"] = report.method;
+  if (file.options.fixed_step) out["fixed_step"] = *file.options.fixed_step;
   out["time"] = report.time;
   out["duration"] = file.duration;
   out["tolerance"] = file.options.tolerance;
