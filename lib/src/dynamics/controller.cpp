@@ -1,5 +1,7 @@
 #include "controller.h"
 
+#include <tendril/dynamics/cash_karp.h>
+#include <tendril/dynamics/rodas.h>
 #include <tendril/dynamics/stability.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ constexpr long kEnergyInterval = 16;  // accepted steps between looks at the ene
 }  // namespace
 
 Controller::Controller(const System& system, State start, const SimulationOptions& options)
-    : system_(system), options_(options), state_(std::move(start)), stepper_(system) {
+    : system_(system), options_(options), state_(std::move(start)), work_(system.make_workspace()) {
   for (const Rod& rod : system.scene().rods) {
     double length = 0.0;
     for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) length += (rod.p[i + 1] - rod.p[i]).norm();
@@ -31,8 +33,14 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
-  if (options.method != Method::cash_karp) fixed_ = make_stepper(options.method, system);
-  report_.method = fixed_ ? fixed_->name() : stepper_.name();
+  if (options.method == Method::cash_karp)
+    embedded_ = std::make_unique<CashKarp>(system);
+  else if (options.method == Method::rodas)
+    embedded_ = std::make_unique<Rodas>(system);
+  else
+    fixed_ = make_stepper(options.method, system);
+  report_.method = fixed_ ? fixed_->name() : embedded_->name();
+  report_.guard_step = std::numeric_limits<double>::infinity();
   measure_scales();
   now_ = report_.first = system_.energies(state_, workspace());
   start_ = state_.time;
@@ -66,6 +74,7 @@ void Controller::begin(double until) {
   report_.reason.clear();
   since_guard_ = std::numeric_limits<long>::max();
   if (fixed_) fixed_->restart();
+  if (embedded_) embedded_->restart();
   const double run = until - state_.time;
   if (h_ == 0.0) h_ = options_.first_step.value_or(run / 100);
 }
@@ -130,7 +139,7 @@ bool Controller::out_of_work() {
 
 bool Controller::step_towards(double target) {
   if (fixed_) return fixed_step_towards(target);
-  if (since_guard_ >= kGuardInterval) guard();
+  if (!embedded_->stiff() && since_guard_ >= kGuardInterval) guard();
   Evaluation last;
   while (!ended_ && !out_of_work()) {
     const Aim at = aim(target);
@@ -138,11 +147,11 @@ bool Controller::step_towards(double target) {
     if (!(state_.time + h > state_.time)) {
       // Nothing between here and the jump.
       state_.time = at.time;
-      stepper_.restart();
+      embedded_->restart();
       if (at.at_break) return true;
       return reject(at, 0.0, last);
     }
-    last = stepper_.step(state_, h, y_, error_);
+    last = embedded_->step(state_, h, y_, error_);
     const double error = last.ok() ? error_norm(error_) : 0.0;
     if (last.ok() && error <= 1.0) {
       State next = state_;
@@ -177,8 +186,9 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 }
 
 void Controller::accept(const Aim& aim, double error) {
-  stepper_.restart();
-  const double factor = error > 0.0 ? std::min(kGrow, kSafety * std::pow(error, -0.2)) : kGrow;
+  embedded_->restart();
+  const double grow = -1.0 / (embedded_->error_order() + 1);  // -0.2 for Cash-Karp
+  const double factor = error > 0.0 ? std::min(kGrow, kSafety * std::pow(error, grow)) : kGrow;
   // A step cut short by an output says little about the next one.
   const bool cut = aim.h < 0.99 * h_;
   h_ = cut ? std::max(h_ * std::min(factor, 1.0), aim.h * factor) : aim.h * factor;
@@ -227,7 +237,9 @@ void Controller::check_energy() {
       std::max(energy_scale_, now_.kinetic + std::abs(now_.elastic - report_.first.elastic) +
                                   std::abs(now_.potential - report_.first.potential) + std::abs(work));
   const double off = imbalance();
-  if (!ended_ && std::abs(off) > std::max(options_.energy_limit, options_.tolerance))
+  // A stiff method takes energy out of what it does not resolve; none may put energy in.
+  const double wrong = embedded_ && embedded_->stiff() ? off : std::abs(off);
+  if (!ended_ && wrong > std::max(options_.energy_limit, options_.tolerance))
     stop(Stop::energy_lost,
          sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
 }

@@ -20,7 +20,7 @@ class Controller {
   void cancel();
 
   const State& state() const { return state_; }
-  System::Workspace& workspace() { return stepper_.workspace(); }
+  System::Workspace& workspace() { return *work_; }
   Report report();
 
  private:
@@ -35,7 +35,7 @@ class Controller {
   bool fixed_step_towards(double target);
   void guard_fixed_step();
   long evaluations() const {
-    return stepper_.evaluations() + other_evaluations_ + (fixed_ ? fixed_->evaluations() : 0);
+    return other_evaluations_ + (fixed_ ? fixed_->evaluations() : embedded_->evaluations());
   }
   bool out_of_work();
   double error_norm(const Eigen::VectorXd& error) const;
@@ -52,8 +52,9 @@ class Controller {
   const System& system_;
   SimulationOptions options_;
   State state_, next_;
-  CashKarp stepper_;
-  std::unique_ptr<Stepper> fixed_;  ///< null where Cash-Karp chooses the steps
+  System::WorkspacePtr work_;
+  std::unique_ptr<EmbeddedStepper> embedded_;  ///< null where steps are fixed
+  std::unique_ptr<Stepper> fixed_;             ///< null where the run chooses its steps
   Eigen::VectorXd y_, error_;
 
   double until_ = 0.0, start_ = 0.0, h_ = 0.0;

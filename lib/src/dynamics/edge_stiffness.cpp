@@ -129,6 +129,15 @@ void add_bending(const Model& model, std::size_t i, std::size_t side, const Work
     add_angle(along_t(e, f.z, t), model.bend_t[node], a.t, model.rest_t[end], a.st, a.z, s);
 }
 
+SpringVector twist_gradient(const Vec3& c) {
+  SpringVector g = SpringVector::Zero();
+  g.segment<3>(kSide[0]) = c;
+  g.segment<3>(kSide[1]) = c;
+  g[kSide[0] + 3] = -1.0;
+  g[kSide[1] + 3] = 1.0;
+  return g;
+}
+
 /// tau = theta_b - theta_a + a function of the tangents, whose gradient away from the reference is
 /// c + (t_s x t) / (1 + t_s.t) at a and c minus the like at b, c = (t_a x t_b) / (1 + t_a.t_b).
 void add_twist(const Model& model, std::size_t i, const Workspace& work, double strain, SpringSpace& s) {
@@ -137,10 +146,7 @@ void add_twist(const Model& model, std::size_t i, const Workspace& work, double 
   const double k = 1.0 + ta.dot(tb);
   const Vec3 c = ta.cross(tb) / k;
   Component tau;
-  tau.gradient.segment<3>(kSide[0]) = c;
-  tau.gradient.segment<3>(kSide[1]) = c;
-  tau.gradient[kSide[0] + 3] = -1.0;
-  tau.gradient[kSide[1] + 3] = 1.0;
+  tau.gradient = twist_gradient(c);
   const Mat3 by_a = -(cross_matrix(tb) + c * tb.transpose()) / k;
   const Mat3 by_b = (cross_matrix(ta) - c * ta.transpose()) / k;
   const Mat3 pa = projector(ta);
@@ -231,6 +237,48 @@ EdgeStiffness edge_stiffness(const Model& model, const NodeRange& rod, std::size
   EdgeStiffness k = c.to_nodes.transpose() * edges * c.to_nodes;
   add_edge_curvature(model, i, work, k);
   return k;
+}
+
+EdgeStiffness edge_resistance(const Model& model, const NodeRange& rod, std::size_t i,
+                              const Workspace& work) {
+  SpringSpace springs = SpringSpace::Zero();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::size_t node = i + side;
+    if (!model.has_twist(node)) continue;
+    const int t = kSide[side];
+    const EdgeAngles a = edge_angles(work.e[i], work.frame[node]);
+    const SpringVector l = along_l(work.frame[node], a, t, t + 3).gradient / a.cl;
+    const SpringVector m = along_m(work.frame[node], a, t, t + 3).gradient / a.cm;
+    springs += model.bend_l[node] * l * l.transpose() + model.bend_m[node] * m * m.transpose();
+  }
+  if (model.has_twist(i)) {
+    const Vec3& ta = work.frame[i].z;
+    const Vec3& tb = work.frame[i + 1].z;
+    const SpringVector g = twist_gradient(ta.cross(tb) / (1.0 + ta.dot(tb)));
+    springs += model.twist[i] * g * g.transpose();
+  }
+  const Chain c = chain(model, rod, i, work);
+  EdgeStiffness k = c.to_nodes.transpose() * (c.to_edges.transpose() * springs * c.to_edges) * c.to_nodes;
+  const Mat3 stretch = model.stretch[i] * work.e[i] * work.e[i].transpose();
+  k.block<3, 3>(3, 3) += stretch;
+  k.block<3, 3>(6, 6) += stretch;
+  k.block<3, 3>(3, 6) -= stretch;
+  k.block<3, 3>(6, 3) -= stretch;
+  return k;
+}
+
+std::array<Eigen::Index, 14> edge_places(const Model& model, const NodeRange& rod, std::size_t i) {
+  std::array<Eigen::Index, 14> at{};
+  at.fill(-1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    if ((k == 0 && i == rod.first) || i + k > rod.first + rod.count) continue;
+    const auto node = static_cast<Eigen::Index>(i + k - 1);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      at[3 * k + axis] = 3 * node + static_cast<Eigen::Index>(axis);
+  }
+  for (std::size_t side = 0; side < 2; ++side)
+    if (model.has_twist(i + side)) at[12 + side] = model.v_begin() + model.twist_index[i + side];
+  return at;
 }
 
 }  // namespace tendril

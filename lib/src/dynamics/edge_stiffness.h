@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 #include "workspace.h"
 
 namespace tendril {
@@ -20,5 +22,14 @@ using EdgeStiffness = Eigen::Matrix<double, 14, 14>;
 /// last two are counted with the edge, and with the edge that begins at the node.
 EdgeStiffness edge_stiffness(const System::Model& model, const NodeRange& rod, std::size_t i,
                              const State& reference, const System::Workspace& work);
+
+/// Resistance of edge i in the same coordinates: sum k grad q grad q^T over stretch, the two deviations and
+/// the twist. Times the viscosity it is minus the viscous forces' derivative by the velocities.
+EdgeStiffness edge_resistance(const System::Model& model, const NodeRange& rod, std::size_t i,
+                              const System::Workspace& work);
+
+/// Places of those coordinates among n positions and m angles (the order of System::elastic_gradient), -1 for
+/// what is not there.
+std::array<Eigen::Index, 14> edge_places(const System::Model& model, const NodeRange& rod, std::size_t i);
 
 }  // namespace tendril

@@ -291,13 +291,17 @@ Evaluation kinematics(const Model& model, const State& reference, double t, cons
   return {};
 }
 
+void relax(Workspace& work) {
+  for (auto* vectors : {&work.g_edge, &work.g_tangent})
+    std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
+  for (auto* numbers : {&work.g_length, &work.g_spin}) std::fill(numbers->begin(), numbers->end(), 0.0);
+}
+
 double elastic(const Model& model, const State& reference, bool viscous, Workspace& work,
                double& dissipated) {
   double energy = 0.0;
   dissipated = 0.0;
-  for (auto* vectors : {&work.g_edge, &work.g_tangent})
-    std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
-  std::fill(work.g_spin.begin(), work.g_spin.end(), 0.0);
+  relax(work);
   for (const NodeRange& rod : model.rods) {
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       energy += stretch(model, viscous, i, work, dissipated);

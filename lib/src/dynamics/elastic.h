@@ -14,8 +14,15 @@ Evaluation kinematics(const System::Model& model, const State& reference, double
 double elastic(const System::Model& model, const State& reference, bool viscous, System::Workspace& work,
                double& dissipated);
 
+/// The gradient of no springs at all.
+void relax(System::Workspace& work);
+
 /// Turns g_edge, g_length and g_tangent into forces on the masses, added to work.force. The tangents of held
 /// frames do not depend on the masses.
 void add_pulled_back(const System::Model& model, System::Workspace& work);
+
+/// The equations of motion: y' at (t, y), with or without the springs and their viscous parts.
+Evaluation rates(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                 bool springs, Eigen::VectorXd& dy, System::Workspace& work);
 
 }  // namespace tendril

@@ -1,5 +1,6 @@
 #include <tendril/dynamics/cash_karp.h>
 #include <tendril/dynamics/fixed_steppers.h>
+#include <tendril/dynamics/rodas.h>
 
 namespace tendril {
 namespace {
@@ -28,6 +29,8 @@ const char* to_string(Method method) {
   switch (method) {
     case Method::cash_karp:
       return "cash_karp";
+    case Method::rodas:
+      return "rodas";
     case Method::verlet:
       return "verlet";
     case Method::runge_kutta4:
@@ -40,10 +43,16 @@ const char* to_string(Method method) {
   return "unknown";
 }
 
+bool chooses_steps(Method method) {
+  return method == Method::cash_karp || method == Method::rodas;
+}
+
 std::unique_ptr<Stepper> make_stepper(Method method, const System& system) {
   switch (method) {
     case Method::cash_karp:
       return std::make_unique<CashKarp>(system);
+    case Method::rodas:
+      return std::make_unique<Rodas>(system);
     case Method::verlet:
       return std::make_unique<VelocityVerlet>(system);
     case Method::runge_kutta4:

@@ -26,10 +26,11 @@ void check(const SimulationOptions& options) {
   positive("tolerance", options.tolerance);
   positive("energy_limit", options.energy_limit);
   if (options.fixed_step) positive("fixed_step", *options.fixed_step);
-  if (options.fixed_step.has_value() == (options.method == Method::cash_karp))
+  if (options.fixed_step.has_value() == chooses_steps(options.method))
     throw InvalidInput("fixed_step", options.fixed_step ? "given" : "missing",
-                       options.fixed_step ? "none: cash_karp chooses its own steps"
-                                          : std::string("a step for ") + to_string(options.method));
+                       options.fixed_step
+                           ? std::string("none: ") + to_string(options.method) + " chooses its own steps"
+                           : std::string("a step for ") + to_string(options.method));
   positive("amplification", options.amplification);
   positive("total_amplification", options.total_amplification);
   if (options.first_step) positive("first_step", *options.first_step);

@@ -105,12 +105,14 @@ State System::rest_state(double time) const {
   return state;
 }
 
-Evaluation System::derivative(const State& reference, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy,
-                              Workspace& work) const {
-  const Model& model = *model_;
+Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
+                 Eigen::VectorXd& dy, Workspace& work) {
   if (const Evaluation at = kinematics(model, reference, t, y, true, work); !at.ok()) return at;
   double dissipated = 0.0;
-  elastic(model, reference, true, work, dissipated);
+  if (springs)
+    elastic(model, reference, true, work, dissipated);
+  else
+    relax(work);
   std::fill(work.force.begin(), work.force.end(), Vec3::Zero());
   std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
   double power = add_external(model, t, work) - dissipated;
@@ -136,6 +138,11 @@ Evaluation System::derivative(const State& reference, double t, const Eigen::Vec
   }
   dy[model.work_index()] = power;
   return dy.allFinite() ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
+}
+
+Evaluation System::derivative(const State& reference, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy,
+                              Workspace& work) const {
+  return rates(*model_, reference, t, y, true, dy, work);
 }
 
 Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,

@@ -24,14 +24,13 @@ struct CashKarpTableau {
 };
 
 /// One step of the pair, with its own scratch space.
-class CashKarp : public Stepper {
+class CashKarp : public EmbeddedStepper {
  public:
   explicit CashKarp(const System& system);
 
-  /// From `state` over h: the solution of order 5 into `y`, and y - y_star (3.32) into `error`. The state is
-  /// not changed; its derivative is evaluated once and kept for further tries from the same state. On failure
-  /// y and error are not to be used.
-  Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error);
+  /// y of order 5, error y - y_star (3.32).
+  Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) override;
+  int error_order() const override { return 4; }
 
   /// Advances the state by a step of fixed size: step, then System::rebase.
   Evaluation advance(State& state, double h) override;

@@ -49,6 +49,11 @@ class Force {
   virtual bool has_energy() const { return false; }
   virtual double energy(const StateView&) const { return 0.0; }
 
+  /// False when the loads are the same whatever the state: implicit steps then need no derivatives of them.
+  virtual bool depends_on_state() const { return true; }
+  /// False when the loads are the same at all times.
+  virtual bool depends_on_time() const { return true; }
+
   /// True when it may turn nodes about their tangents: such a scene keeps its twist state.
   virtual bool twists() const { return false; }
 

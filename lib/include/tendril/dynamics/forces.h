@@ -12,6 +12,8 @@ class Gravity : public Force {
  public:
   explicit Gravity(const Vec3& acceleration);
   void add(const StateView& state, const Loads& loads) const override;
+  bool depends_on_state() const override { return false; }
+  bool depends_on_time() const override { return false; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
 
@@ -64,6 +66,10 @@ class PointLoad : public Force {
   bool has_energy() const override { return kind_ == Kind::force && signal_.is_constant(); }
   double energy(const StateView& state) const override;
   bool twists() const override { return kind_ == Kind::torque; }
+  bool depends_on_state() const override {
+    return kind_ == Kind::torque;
+  }  // a torque acts through the tangent
+  bool depends_on_time() const override { return !signal_.is_constant(); }
   std::vector<double> breaks() const override { return signal_.breaks(); }
 
  private:
@@ -77,6 +83,7 @@ class PointLoad : public Force {
 class PullTowards : public Force {
  public:
   PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
+  bool depends_on_time() const override { return false; }
   void add(const StateView& state, const Loads& loads) const override;
   void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return true; }

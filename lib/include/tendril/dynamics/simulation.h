@@ -15,8 +15,8 @@ namespace tendril {
 /// and speed / l.
 struct SimulationOptions {
   Method method = Method::cash_karp;
-  /// Step of every method but Cash-Karp, which has none. Stretches between outputs, jumps of a force and the
-  /// end are divided into equal steps of at most this.
+  /// Step of the methods that do not choose their own, which have none. Stretches between outputs, jumps of a
+  /// force and the end are divided into equal steps of at most this.
   std::optional<double> fixed_step = {};
   double tolerance = 1e-6;                ///< of a step's error, relative to those scales, largest component
   std::optional<double> first_step = {};  ///< default: a hundredth of the run, capped by the guard

@@ -23,9 +23,25 @@ class Stepper {
   virtual const char* name() const = 0;  ///< in words
 };
 
-/// The methods a run can be told to use. Cash-Karp chooses its own steps; the others keep to the size given.
-enum class Method { cash_karp, verlet, runge_kutta4, explicit_euler, backward_euler };
+/// A stepper that estimates its own error, so that a run can choose its steps.
+class EmbeddedStepper : public Stepper {
+ public:
+  /// From `state` over h: the solution into `y`, and an estimate of its error into `error`, laid out like y.
+  /// The state is not changed; what was evaluated there is kept for further tries from the same state. On
+  /// failure y and error are not to be used.
+  virtual Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) = 0;
+
+  virtual int error_order() const = 0;          ///< the error goes with h to this order plus 1
+  virtual bool stiff() const { return false; }  ///< damps what it does not resolve, at any step
+};
+
+/// The methods a run can be told to use. Cash-Karp and RODAS choose their own steps; the others keep to the
+/// size given.
+enum class Method { cash_karp, rodas, verlet, runge_kutta4, explicit_euler, backward_euler };
 const char* to_string(Method method);
+
+/// True for the methods that estimate their error and choose their steps by it.
+bool chooses_steps(Method method);
 
 /// \param system  kept by reference
 std::unique_ptr<Stepper> make_stepper(Method method, const System& system);

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+#include <tendril/base/error.h>
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/rodas.h>
+#include <tendril/dynamics/simulation.h>
+
+#include "support/rods.h"
+
+namespace tendril {
+namespace {
+
+Eigen::VectorXd after(const System& system, const State& start, Stepper& stepper, double time, int steps) {
+  State state = start;
+  for (int i = 0; i < steps; ++i)
+    if (!stepper.advance(state, time / steps).ok()) throw std::runtime_error("step failed");
+  return state.y.head(3 * static_cast<Eigen::Index>(system.node_count()));
+}
+
+double order_of(const System& system, const State& start, double time, int coarse) {
+  Rodas rodas(system);
+  const Eigen::VectorXd reference = after(system, start, rodas, time, 16 * coarse);
+  const double first = (after(system, start, rodas, time, coarse) - reference).norm();
+  const double second = (after(system, start, rodas, time, 2 * coarse) - reference).norm();
+  std::printf("RODAS: errors %.2e %.2e, order %.2f\n", first, second, std::log2(first / second));
+  return std::log2(first / second);
+}
+
+/// A clamped rod let go under gravity; anisotropic ones keep their twist.
+System hanging(int edges, double young, bool twist, double viscosity = 0.0) {
+  Scene scene;
+  const std::vector<Vec3> p = test::straight(edges, 1.0);
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3(0, 0.5, 1), 0.1), {young, young / 3, 1000},
+                                elliptic_section(0.02, twist ? 0.012 : 0.02)));
+  scene.rods[0].viscosity = viscosity;
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -9.81)));
+  return System(scene);
+}
+
+TEST(Rodas, ConvergesAtOrderFourWithoutTwist) {
+  const System system = hanging(8, 1e5, false);
+  ASSERT_EQ(system.twist_count(), 0u);
+  EXPECT_NEAR(order_of(system, system.rest_state(), 0.4, 200), 4.0, 0.3);
+}
+
+TEST(Rodas, ConvergesAtOrderFourWithTwist) {
+  const System system = hanging(8, 1e5, true);
+  ASSERT_EQ(system.twist_count(), 9u);
+  EXPECT_NEAR(order_of(system, system.rest_state(), 0.4, 200), 4.0, 0.3);
+}
+
+TEST(Rodas, ConvergesAtOrderFourInWindAndWithAMovedClamp) {
+  Scene scene = hanging(6, 1e5, true).scene();
+  WindOptions wind;
+  wind.mean = Vec3(0, 5, 0);
+  wind.gust = 0.5;
+  scene.forces.push_back(std::make_shared<Wind>(wind));
+  scene.rods[0].mass_damping = 0.4;
+  const Frame rest = node_frames(scene.rods[0].p, scene.rods[0].q).frame[0];
+  scene.anchors[0].motion = [rest](double t) {
+    AnchorPose pose;
+    pose.position = Vec3(0, 0, 0.1 * std::sin(3 * t));
+    pose.velocity = Vec3(0, 0, 0.3 * std::cos(3 * t));
+    pose.frame = rest;
+    return pose;
+  };
+  const System system(scene);
+  EXPECT_NEAR(order_of(system, system.rest_state(), 0.4, 200), 4.0, 0.35);
+}
+
+TEST(Rodas, AgreesWithCashKarpOnAStiffRodInFarFewerSteps) {
+  const System system = hanging(32, 1e8, true, 1e-4);
+  Eigen::VectorXd end[2];
+  long steps[2];
+  int k = 0;
+  for (const Method method : {Method::cash_karp, Method::rodas}) {
+    SimulationOptions options;
+    options.method = method;
+    options.tolerance = 1e-4;
+    Simulation simulation(system, system.rest_state(), options);
+    const Report report = simulation.run(0.2);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    std::printf("E 1e8, %s: %ld steps, %ld evaluations, imbalance %.1e\n", report.method.c_str(),
+                report.accepted, report.evaluations, report.imbalance);
+    end[k] = simulation.state().y.head(99);
+    steps[k++] = report.accepted;
+  }
+  EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT(steps[1], steps[0] / 10);
+}
+
+TEST(Rodas, FinishesWhereTheGuardRefuses) {
+  const System system = hanging(64, 1e10, false);
+  SimulationOptions options;
+  options.tolerance = 1e-3;
+  options.work_limit = 1'000'000;
+  EXPECT_EQ(Simulation(system, system.rest_state(), options).run(1.0).stop, Stop::too_stiff);
+  options.method = Method::rodas;
+  Simulation simulation(system, system.rest_state(), options);
+  const Report report = simulation.run(1.0);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  // Nearly rigid: the tip sags by q L^4 / 8 E I and rings about it.
+  const double sag = 1000 * 9.81 / (8 * 1e10 * 0.02 * 0.02 / 4);
+  EXPECT_LT(std::abs(test::at(simulation.state().y, 64).z()), 2.1 * sag);
+  EXPECT_GT(std::abs(test::at(simulation.state().y, 64).z()), 0.3 * sag);
+  std::printf("E 1e10, 64 edges: %ld steps, tip %.3e of sag %.3e\n", report.accepted,
+              test::at(simulation.state().y, 64).z(), sag);
+}
+
+TEST(Rodas, RefusesJoints) {
+  Scene scene = hanging(4, 1e6, true).scene();
+  scene.rods.push_back(scene.rods[0]);
+  const Vec3 shift = scene.rods[0].p[2];
+  for (Vec3& p : scene.rods[1].p) p += shift;
+  for (Vec3& q : scene.rods[1].q) q += shift;
+  scene.joints.push_back({0, 2, 1, true});
+  const System system(scene);
+  EXPECT_THROW(Rodas rodas(system), InvalidInput);
+}
+
+}  // namespace
+}  // namespace tendril
