@@ -29,7 +29,7 @@ StabilityLimits stability_limits(Method method) {
 
 void Controller::guard_fixed_step() {
   since_guard_ = 0;
-  other_evaluations_ += 2 * kLanczosVectors;
+  other_evaluations_ += 2L * kLanczosVectors;
   const double w = system_.largest_frequency(state_, kLanczosVectors, workspace());
   report_.largest_frequency = w;
   double decay = 0.0;
