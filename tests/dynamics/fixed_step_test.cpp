@@ -52,6 +52,14 @@ TEST(FixedStep, EndsAtOutputsWithEqualStepsBetween) {
   EXPECT_EQ(report.rejected, 0);
 }
 
+TEST(FixedStep, TakesNoMoreStepsThanItsSizeAsks) {
+  const System system = swinging_rod();
+  Simulation simulation(system, system.rest_state(), fixed(Method::verlet, 1e-3));
+  std::vector<double> outputs;
+  for (int i = 1; i <= 30; ++i) outputs.push_back(0.01 * i);
+  EXPECT_EQ(simulation.run(0.3, outputs).accepted, 300);
+}
+
 TEST(FixedStep, MustBeGivenToTheMethodsThatHaveOneAndOnlyToThose) {
   const System system = swinging_rod();
   SimulationOptions options;

@@ -103,6 +103,25 @@ TEST(Run, ExitsWithOneAndTheReasonWhenTheWorkLimitIsTooSmall) {
   EXPECT_NE(outcome.err.find(summary.at("reason").get<std::string>()), std::string::npos);
 }
 
+TEST(Run, TakesTheStepsOfTheMethodTheSceneNames) {
+  const Folder folder;
+  Json scene = Json::parse(full_scene());
+  scene["mesh"] = nullptr;
+  scene["simulation"] = {{"duration", 0.1}, {"frames", 3}, {"method", "verlet"}, {"fixed_step", 1.0}};
+  folder.write("scene.json", scene.dump());
+  const auto run = [&] { return folder.run("run scene.json --out out --json --no-pictures"); };
+  const Json summary = Json::parse(run().out);
+  EXPECT_EQ(summary.at("integrator"), "velocity Verlet");
+  EXPECT_EQ(summary.at("fixed_step"), 1.0);
+  EXPECT_EQ(summary.at("status"), "too_stiff");
+  const double limit = summary.at("guard_step").get<double>();
+  scene["simulation"]["fixed_step"] = 0.2 * limit;
+  folder.write("scene.json", scene.dump());
+  const Json gentle = Json::parse(run().out);
+  EXPECT_EQ(gentle.at("status"), "finished") << gentle.at("reason");
+  EXPECT_EQ(gentle.at("steps_accepted"), 2 * std::ceil(0.05 / (0.2 * limit)));
+}
+
 /// Starts the program without waiting.
 pid_t start(const Folder& folder, std::vector<std::string> arguments) {
   const pid_t child = fork();

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kConverged = 1e-9;   // a correction's way over the step, in shortest edges or radians
 constexpr double kDifference = 1e-7;  // of the matrix, likewise
-constexpr double kSlow = 0.3;         // a correction this large against the last one asks for a new matrix
 constexpr int kMatrices = 12;
 constexpr int kIterations = 12;  // on one matrix
 
@@ -86,7 +85,6 @@ bool BackwardEuler::iterate(const State& start, double h, Eigen::VectorXd& z, Ev
     z -= correction;
     if (at = defect(start, h, z, off); !at.ok()) return false;
     if (way <= kConverged) return true;
-    if (way > kSlow * before) matrix_step_ = 0.0;  // serves to the end of this step
     before = way;
   }
   return false;

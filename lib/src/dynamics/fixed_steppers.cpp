@@ -100,8 +100,8 @@ Evaluation VelocityVerlet::advance(State& state, double h) {
     ++evaluations_;
     if (const Evaluation at = system_.derivative(state, state.time, state.y, rate_, *work_); !at.ok())
       return at;
-    known_ = true;
   }
+  known_ = false;  // until this step has arrived
   // Kick: velocities, spins and the work done.
   const auto kick = [&](Eigen::VectorXd& y) {
     y.segment(n, n) += 0.5 * h * rate_.segment(n, n);
@@ -119,7 +119,9 @@ Evaluation VelocityVerlet::advance(State& state, double h) {
     y_ = half_;
     kick(y_);
   }
-  return arrive(system_, y_, h, state, *work_);
+  const Evaluation at = arrive(system_, y_, h, state, *work_);
+  known_ = at.ok();
+  return at;
 }
 
 }  // namespace tendril
