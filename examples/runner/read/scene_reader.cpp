@@ -114,8 +114,8 @@ std::vector<double> read_outputs(const JsonNode& simulation, double duration) {
 /// Cash-Karp and RODAS choose their own steps; every other method needs one.
 void read_method(const JsonNode& simulation, SimulationOptions& options) {
   const std::string name = simulation.text_or("method", to_string(options.method));
-  for (const Method method :
-       {Method::rodas, Method::verlet, Method::runge_kutta4, Method::explicit_euler, Method::backward_euler})
+  for (const Method method : {Method::rodas, Method::automatic, Method::verlet, Method::runge_kutta4,
+                              Method::explicit_euler, Method::backward_euler})
     if (name == to_string(method)) options.method = method;
   if (!chooses_steps(options.method)) {
     options.fixed_step = simulation.at("fixed_step").positive();

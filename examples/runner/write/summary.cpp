@@ -37,6 +37,8 @@ OrderedJson summarize(const SceneFile& file, const System& system, const bind::P
   out["status"] = tendril::to_string(report.stop);
   out["reason"] = report.reason;
   out["integrator"] = report.method;
+  for (const tendril::Switch& entry : report.switches)
+    out["switches"].push_back({{"time", entry.time}, {"to", entry.to}, {"reason", entry.reason}});
   if (file.options.fixed_step) out["fixed_step"] = *file.options.fixed_step;
   out["time"] = report.time;
   out["duration"] = file.duration;

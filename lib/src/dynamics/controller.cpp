@@ -17,6 +17,7 @@ constexpr double kSafety = 0.93;  // thesis 3.34
 constexpr double kShrink = 0.2;   // bounds of the factor
 constexpr double kGrow = 5.0;
 constexpr long kGuardInterval = 64;  // accepted steps between estimates of the largest frequency
+constexpr long kDue = 1'000'000'000;  // a count of steps past every interval
 constexpr int kLanczosVectors = 16;
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
 
@@ -33,7 +34,7 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
-  if (options.method == Method::cash_karp)
+  if (options.method == Method::cash_karp || options.method == Method::automatic)
     embedded_ = std::make_unique<CashKarp>(system);
   else if (options.method == Method::rodas)
     embedded_ = std::make_unique<Rodas>(system);
@@ -72,16 +73,15 @@ void Controller::begin(double until) {
   ended_ = false;
   report_.stop = Stop::finished;
   report_.reason.clear();
-  since_guard_ = std::numeric_limits<long>::max();
-  if (fixed_) fixed_->restart();
+  since_guard_ = kDue;
   if (embedded_) embedded_->restart();
   const double run = until - state_.time;
   if (h_ == 0.0) h_ = options_.first_step.value_or(run / 100);
 }
 
-void Controller::guard() {
+void Controller::measure_guard() {
   since_guard_ = 0;
-  other_evaluations_ += 2 * kLanczosVectors;
+  other_evaluations_ += 2L * kLanczosVectors;
   const double frequency = system_.largest_frequency(state_, kLanczosVectors, workspace());
   report_.largest_frequency = frequency;
   if (std::abs(frequency - guard_frequency_) > 0.01 * guard_frequency_) {
@@ -99,11 +99,15 @@ void Controller::guard() {
     report_.guard_step =
         std::min(guard_step(frequency, alpha, beta, limits), guard_step(frequency, alpha, most_beta, limits));
   }
+}
+
+void Controller::guard() {
+  measure_guard();
   const double needed = 6.0 * (until_ - state_.time) / report_.guard_step;
   const double left = static_cast<double>(options_.work_limit - evaluations());
   if (needed > left)
     stop(Stop::too_stiff,
-         sentence("at time ", state_.time, " the fastest motion has ", frequency,
+         sentence("at time ", state_.time, " the fastest motion has ", report_.largest_frequency,
                   " rad per time unit, which caps the step at ", report_.guard_step,
                   ": the rest of the run would need about ", needed, " evaluations and ", left, " are left"));
 }
@@ -116,7 +120,8 @@ bool Controller::cut_at_break(double& target) const {
 }
 
 Controller::Aim Controller::aim(double target) const {
-  double h = std::min({h_, report_.guard_step, options_.largest_step.value_or(until_ - start_)});
+  const double cap = embedded_->stiff() ? std::numeric_limits<double>::infinity() : report_.guard_step;
+  double h = std::min({h_, cap, options_.largest_step.value_or(until_ - start_)});
   const bool break_first = cut_at_break(target);
   const double left = target - state_.time;
   if (h >= left * (1.0 - 1e-10)) return {left, target, break_first};
@@ -139,7 +144,10 @@ bool Controller::out_of_work() {
 
 bool Controller::step_towards(double target) {
   if (fixed_) return fixed_step_towards(target);
-  if (!embedded_->stiff() && since_guard_ >= kGuardInterval) guard();
+  if (options_.method == Method::automatic)
+    choose();
+  else if (!embedded_->stiff() && since_guard_ >= kGuardInterval)
+    guard();
   Evaluation last;
   while (!ended_ && !out_of_work()) {
     const Aim at = aim(target);
@@ -188,12 +196,18 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 void Controller::accept(const Aim& aim, double error) {
   embedded_->restart();
   const double grow = -1.0 / (embedded_->error_order() + 1);  // -0.2 for Cash-Karp
-  const double factor = error > 0.0 ? std::min(kGrow, kSafety * std::pow(error, grow)) : kGrow;
+  const double wish = error > 0.0 ? kSafety * std::pow(error, grow) : kGrow;
+  const double factor = std::min(kGrow, wish);
+  wished_ = aim.h * wish;
   // A step cut short by an output says little about the next one.
   const bool cut = aim.h < 0.99 * h_;
   h_ = cut ? std::max(h_ * std::min(factor, 1.0), aim.h * factor) : aim.h * factor;
-  if (aim.at_break) h_ = std::min(h_, aim.h);
   record(aim);
+  // What was learnt before a jump says nothing about what comes after it.
+  if (aim.at_break) {
+    h_ = std::min(h_, aim.h);
+    since_guard_ = kDue;
+  }
 }
 
 void Controller::record(const Aim& aim) {

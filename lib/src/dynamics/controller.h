@@ -41,6 +41,10 @@ class Controller {
   double error_norm(const Eigen::VectorXd& error) const;
   void measure_scales();
   void guard();
+  void measure_guard();
+  bool explicit_fits() const;
+  void choose();
+  void take(std::unique_ptr<EmbeddedStepper> stepper, std::string reason);
   void accept(const Aim& aim, double error);
   void record(const Aim& aim);
   bool reject(const Aim& aim, double factor, const Evaluation& why);
@@ -63,6 +67,8 @@ class Controller {
   std::vector<double> rod_length_;
   double speed_ = 0.0, longest_ = 0.0, guard_frequency_ = -1.0;
   double energy_scale_ = 0.0;
+  double wished_ = 0.0;  ///< the step the last error would have allowed, uncapped
+  bool started_ = false;
   long since_guard_ = 0, other_evaluations_ = 0;
   Energies now_;
   Report report_;

@@ -31,6 +31,8 @@ const char* to_string(Method method) {
       return "cash_karp";
     case Method::rodas:
       return "rodas";
+    case Method::automatic:
+      return "automatic";
     case Method::verlet:
       return "verlet";
     case Method::runge_kutta4:
@@ -44,12 +46,13 @@ const char* to_string(Method method) {
 }
 
 bool chooses_steps(Method method) {
-  return method == Method::cash_karp || method == Method::rodas;
+  return method == Method::cash_karp || method == Method::rodas || method == Method::automatic;
 }
 
 std::unique_ptr<Stepper> make_stepper(Method method, const System& system) {
   switch (method) {
     case Method::cash_karp:
+    case Method::automatic:
       return std::make_unique<CashKarp>(system);
     case Method::rodas:
       return std::make_unique<Rodas>(system);

@@ -43,10 +43,18 @@ enum class Stop {
 };
 const char* to_string(Stop stop);
 
+/// A change of method during an automatic run.
+struct Switch {
+  double time;
+  std::string to;      ///< the stepper's name
+  std::string reason;  ///< one sentence with the numbers
+};
+
 struct Report {
   Stop stop = Stop::finished;
-  std::string method;  ///< the stepper's name
-  std::string reason;  ///< one sentence with time, rod, node and numbers; empty when finished
+  std::string method;            ///< the stepper's name, the last one's of an automatic run
+  std::vector<Switch> switches;  ///< of an automatic run: what it began with, and every change
+  std::string reason;            ///< one sentence with time, rod, node and numbers; empty when finished
   double time = 0.0;
   long accepted = 0, rejected = 0, evaluations = 0;
   double smallest_step = 0.0, largest_step = 0.0;

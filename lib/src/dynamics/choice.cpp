@@ -1,0 +1,56 @@
+#include <tendril/dynamics/cash_karp.h>
+#include <tendril/dynamics/rodas.h>
+
+#include <utility>
+
+#include "controller.h"
+#include "words.h"
+
+namespace tendril {
+namespace {
+
+// A step of RODAS costs about as much as this many of Cash-Karp, with and without twist.
+constexpr double kImplicitCost = 12.0;
+// No change back and forth: explicit steps must be too dear, or cheap enough, by this factor.
+constexpr double kMargin = 2.0;
+constexpr long kExplicitInterval = 64;  // accepted steps between looks at the choice
+constexpr long kImplicitInterval = 16;
+
+}  // namespace
+
+bool Controller::explicit_fits() const {
+  const double needed = 6.0 * (until_ - state_.time) / report_.guard_step;
+  return needed < static_cast<double>(options_.work_limit - evaluations());
+}
+
+void Controller::take(std::unique_ptr<EmbeddedStepper> stepper, std::string reason) {
+  other_evaluations_ += embedded_->evaluations();
+  embedded_ = std::move(stepper);
+  report_.method = embedded_->name();
+  report_.switches.push_back({state_.time, report_.method, std::move(reason)});
+}
+
+void Controller::choose() {
+  if (since_guard_ < (embedded_->stiff() ? kImplicitInterval : kExplicitInterval)) return;
+  if (!system_.scene().joints.empty()) {
+    if (!std::exchange(started_, true))
+      report_.switches.push_back({state_.time, report_.method, "the implicit method takes no joints yet"});
+    return guard();
+  }
+  measure_guard();
+  const bool first = !std::exchange(started_, true);
+  const double wish = first ? h_ : (embedded_->stiff() ? h_ : wished_);
+  const double ratio = wish / report_.guard_step;
+  const auto numbers = [&] {
+    return sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ",
+                    report_.guard_step);
+  };
+  if (!embedded_->stiff() && (ratio > kMargin * kImplicitCost || !explicit_fits()))
+    take(std::make_unique<Rodas>(system_), numbers());
+  else if (embedded_->stiff() && ratio < kImplicitCost / kMargin && explicit_fits())
+    take(std::make_unique<CashKarp>(system_), numbers());
+  else if (first)
+    report_.switches.push_back({state_.time, report_.method, numbers()});
+}
+
+}  // namespace tendril

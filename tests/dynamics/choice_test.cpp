@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/simulation.h>
+
+#include "support/rods.h"
+
+namespace tendril {
+namespace {
+
+System swinging(int nodes, double young) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(nodes - 1, young, 5e-3));
+  scene.rods[0].mass_damping = 0.5;
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -9.81)));
+  return System(scene);
+}
+
+Report run(const System& system, Method method, double until, Eigen::VectorXd* end = nullptr,
+           double tolerance = 1e-3) {
+  SimulationOptions options;
+  options.method = method;
+  options.tolerance = tolerance;
+  Simulation simulation(system, system.rest_state(), options);
+  const Report report = simulation.run(until);
+  if (end) *end = simulation.state().y.head(3 * static_cast<Eigen::Index>(system.node_count()));
+  return report;
+}
+
+TEST(AutomaticChoice, StaysExplicitOnASoftRod) {
+  const Report report = run(swinging(32, 1e4), Method::automatic, 1.0);
+  ASSERT_EQ(report.stop, Stop::finished);
+  EXPECT_EQ(report.method, "Cash-Karp 4(5)");
+  ASSERT_EQ(report.switches.size(), 1u);
+  EXPECT_FALSE(report.switches[0].reason.empty());
+}
+
+TEST(AutomaticChoice, TurnsImplicitOnStiffRodsAndEndsRight) {
+  for (const double young : {1e8, 1e10}) {
+    const System system = swinging(32, young);
+    Eigen::VectorXd end;
+    Eigen::VectorXd reference;
+    const Report report = run(system, Method::automatic, 0.3, &end);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_EQ(report.method, "RODAS 4(3)");
+    EXPECT_LT(report.accepted, 400);
+    ASSERT_EQ(run(system, Method::rodas, 0.3, &reference, 1e-6).stop, Stop::finished);
+    const double error = (end - reference).norm() / std::sqrt(32.0);
+    std::printf("automatic, E %.0e: %ld steps, %zu entries in the book, error %.1e; %s\n", young,
+                report.accepted, report.switches.size(), error, report.switches.back().reason.c_str());
+    EXPECT_LT(error, 1e-3);
+  }
+}
+
+/// A spring on the tip whose stiffness comes and goes with time.
+struct Comes : Force {
+  void add(const StateView& state, const Loads& loads) const override {
+    const double k = state.time < 0.2 || state.time >= 0.4 ? 0.0 : 1e7;
+    loads.force[3] -= k * (state.p[3] - Vec3(1, 0, 0));
+  }
+  std::vector<double> breaks() const override { return {0.2, 0.4}; }
+};
+
+TEST(AutomaticChoice, SwitchesBothWays) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(3, 2e3, 2e-2));
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -1)));
+  scene.forces.push_back(std::make_shared<Comes>());
+  const System system(scene);
+  const Report report = run(system, Method::automatic, 3.0, nullptr, 1e-5);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  for (const Switch& entry : report.switches)
+    std::printf("  at %.3f %s: %s\n", entry.time, entry.to.c_str(), entry.reason.c_str());
+  EXPECT_GE(report.switches.size(), 3u);
+  EXPECT_EQ(report.method, "Cash-Karp 4(5)");
+}
+
+}  // namespace
+}  // namespace tendril
