@@ -50,6 +50,21 @@ TEST(FixedSteppers, AmplifyAnOscillationByTheirClosedForms) {
     }
 }
 
+TEST(FixedSteppers, SeeAForceAtTheTimesOfTheirStages) {
+  // A force t on a mass of 2 over one step of 0.4: h f(t)/m at the stages' weights.
+  Scene scene = Oscillators::scene();
+  scene.forces = {std::make_shared<PointLoad>(PointLoad::Kind::force, 0, 1, Vec3::UnitZ(),
+                                              Signal::table({{0.0, 0.0}, {1.0, 1.0}}))};
+  const System system(scene);
+  for (const auto& [method, expected] :
+       {std::pair{Method::explicit_euler, 0.0}, std::pair{Method::backward_euler, 0.08},
+        std::pair{Method::runge_kutta4, 0.04}, std::pair{Method::verlet, 0.04}}) {
+    State state = system.rest_state();
+    ASSERT_TRUE(make_stepper(method, system)->advance(state, 0.4).ok());
+    EXPECT_NEAR(state.y[6 + 5], expected, 1e-15) << to_string(method);
+  }
+}
+
 TEST(VelocityVerlet, KeepsTheShadowEnergyOfAnOscillation) {
   // (1 - y^2 / 4) x^2 + v^2 is constant at h w = y.
   for (const double y : {0.1, 1.0, 1.9}) {
@@ -133,17 +148,14 @@ struct Chain {
 TEST(VelocityVerlet, ForgetsAStepThatFailed) {
   const Chain chain(4);
   VelocityVerlet stepper(*chain.system);
-  State lost = chain.state;
-  lost.y[15 + 3] = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(stepper.advance(lost, 1e-3).ok());
-  State wild = chain.state;
-  wild.y.segment(15, 15) *= 1e6;
-  EXPECT_FALSE(stepper.advance(wild, 1e300).ok());
-  State after = chain.state;
+  State state = chain.state;
+  ASSERT_TRUE(stepper.advance(state, 1e-3).ok());
+  EXPECT_FALSE(stepper.advance(state, 1e300).ok());
+  State again = chain.state;
   State fresh = chain.state;
-  ASSERT_TRUE(stepper.advance(after, 1e-3).ok());
+  ASSERT_TRUE(stepper.advance(again, 1e-3).ok());
   ASSERT_TRUE(VelocityVerlet(*chain.system).advance(fresh, 1e-3).ok());
-  EXPECT_TRUE((after.y.array() == fresh.y.array()).all());
+  EXPECT_TRUE((again.y.array() == fresh.y.array()).all());
 }
 
 TEST(VelocityVerlet, IsSymplectic) {

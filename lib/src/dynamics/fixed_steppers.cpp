@@ -14,10 +14,10 @@ Evaluation arrive(const System& system, const Eigen::VectorXd& y, double h, Stat
 }
 
 bool velocities_matter(const System& system) {
-  // With twist, the gyroscopic force does.
+  // With twist, the gyroscopic force does; viscosity brings twist along.
   if (system.twist_count() > 0) return true;
   for (const Rod& rod : system.scene().rods)
-    if (rod.mass_damping > 0.0 || rod.viscosity > 0.0) return true;
+    if (rod.mass_damping > 0.0) return true;
   for (const auto& force : system.scene().forces)
     if (!force->has_energy()) return true;
   return false;
