@@ -16,8 +16,8 @@ int main(int argc, char** argv) try {
   bind::PolygonMesh mesh = bind::read_mesh(argv[1]);
 
   // [readme]
-  std::vector<Vec3> spine;  // ten masses along the mesh's x axis
-  for (int i = 0; i < 10; ++i) spine.emplace_back(-0.45 + 0.1 * i, 0, 0);
+  std::vector<Vec3> spine(10);  // ten masses along the mesh's x axis
+  for (int i = 0; i < 10; ++i) spine[i] = Vec3(-0.45 + 0.1 * i, 0, 0);
   const auto side = orientation_towards(spine, Vec3::UnitZ(), 0.1);
 
   Scene scene;

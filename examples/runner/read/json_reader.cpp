@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 
-std::string escape(std::string key) {
+std::string escape(const std::string& key) {
   std::string out;
   for (const char c : key) {
     if (c == '~') {
