@@ -16,7 +16,7 @@ namespace {
 constexpr double kSafety = 0.93;  // thesis 3.34
 constexpr double kShrink = 0.2;   // bounds of the factor
 constexpr double kGrow = 5.0;
-constexpr long kGuardInterval = 64;  // accepted steps between estimates of the largest frequency
+constexpr long kGuardInterval = 64;   // accepted steps between estimates of the largest frequency
 constexpr long kDue = 1'000'000'000;  // a count of steps past every interval
 constexpr int kLanczosVectors = 16;
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance

@@ -1,60 +1,14 @@
 #pragma once
 
-#include <tendril/curve/curve_pair.h>
-#include <tendril/dynamics/anchor.h>
-#include <tendril/dynamics/force.h>
-#include <tendril/dynamics/joint.h>
-#include <tendril/dynamics/rod.h>
+#include <tendril/curve/frames.h>
+#include <tendril/dynamics/scene.h>
+#include <tendril/dynamics/state.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace tendril {
-
-/// What a scene is made of, as the user says it.
-struct Scene {
-  std::vector<Rod> rods;
-  std::vector<Anchor> anchors;
-  std::vector<Joint> joints;
-  std::vector<std::shared_ptr<const Force>> forces;
-  /// Whether the twist angle and spin of each node are states. Left out, each rod keeps the directors that
-  /// are carried along it without twist, and bends by the angle alone.
-  enum class Twist { where_needed, everywhere } twist = Twist::where_needed;
-};
-
-/// The state of all rods: the integrated numbers y, and the frames they are measured against.
-///
-/// y = (p 3n | v 3n | theta m | w m | work 1), n nodes, m of them with twist (all of a rod or none). theta_i
-/// is the angle of the director against `director[i]` carried from `tangent[i]` to the tangent by the
-/// smallest rotation; w_i the spin about the tangent; work that done so far by forces without an energy, by
-/// damping and by moving anchors.
-struct State {
-  double time = 0.0;
-  Eigen::VectorXd y;
-  std::vector<Vec3> tangent, director;  ///< reference frames, renewed after every accepted step
-  std::vector<double> twist;            ///< unwrapped twist of each edge at the reference
-};
-
-/// Whether the equations could be evaluated, and if not, why and where.
-struct Evaluation {
-  enum class Outcome {
-    ok,
-    zero_edge,
-    fold_back,
-    turned_too_far,
-    not_finite,
-    not_converged  ///< an implicit step's equations
-  } outcome = Outcome::ok;
-  std::size_t node = 0;  ///< flat index
-  bool ok() const { return outcome == Outcome::ok; }
-};
-
-/// Energies in the scene's units. total() + work taken out is constant up to the integration error.
-struct Energies {
-  double kinetic = 0.0, elastic = 0.0, potential = 0.0;
-  double total() const { return kinetic + elastic + potential; }
-};
 
 /// A scene flattened once into the arrays its motion needs: no twist source, no twist state; no force, no
 /// loads. Equations of motion: shared-frame rods with the elastic energy of rod.h, its exact gradient, the
