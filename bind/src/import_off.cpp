@@ -187,28 +187,6 @@ void read_face(TextCursor& in, std::size_t vertices, PolygonMesh& mesh, ColorLis
   }
 }
 
-PolygonMesh read_text(TextCursor& in, const OffHeader& header) {
-  PolygonMesh mesh;
-  reserve(mesh, header, in.remaining(), 6, 8);
-  ColorList point_colors, face_colors;
-  for (std::size_t v = 0; v < header.vertices; ++v) {
-    in.at("vertex", v);
-    read_vertex(in, header, mesh, point_colors);
-  }
-  for (std::size_t f = 0; f < header.faces; ++f) {
-    in.at("face", f);
-    read_face(in, header.vertices, mesh, face_colors);
-  }
-  in.at("after the last face");
-  if (!in.done()) {
-    in.token("");
-    in.fail(in.found() + " is left over", "the end of the file");
-  }
-  mesh.point_colors = point_colors.finish();
-  mesh.face_colors = face_colors.finish();
-  return mesh;
-}
-
 // ---- binary: big-endian 32-bit integers and floats
 
 Vec3 read_vector(ByteCursor& in, const char* what) {
@@ -252,14 +230,10 @@ void read_face(ByteCursor& in, std::size_t vertices, PolygonMesh& mesh, ColorLis
   read_color(in, components, colors);
 }
 
-PolygonMesh read_binary(ByteCursor in, OffHeader header) {
-  in.at("header");
-  header.vertices = read_count(in, "vertices");
-  header.faces = read_count(in, "faces");
-  in.number(Scalar::int32);  // edges, not used by any reader
-  PolygonMesh mesh;
-  reserve(mesh, header, in.remaining(), 12, 20);
-  ColorList point_colors, face_colors;
+/// Vertices and faces, as text or binary: the readers of one item are overloaded by the cursor.
+template <class Cursor>
+void read_body(Cursor& in, const OffHeader& header, PolygonMesh& mesh, ColorList& point_colors,
+               ColorList& face_colors) {
   for (std::size_t v = 0; v < header.vertices; ++v) {
     in.at("vertex", v);
     read_vertex(in, header, mesh, point_colors);
@@ -269,6 +243,31 @@ PolygonMesh read_binary(ByteCursor in, OffHeader header) {
     read_face(in, header.vertices, mesh, face_colors);
   }
   in.at("after the last face");
+}
+
+PolygonMesh read_text(TextCursor& in, const OffHeader& header) {
+  PolygonMesh mesh;
+  reserve(mesh, header, in.remaining(), 6, 8);
+  ColorList point_colors, face_colors;
+  read_body(in, header, mesh, point_colors, face_colors);
+  if (!in.done()) {
+    in.token("");
+    in.fail(in.found() + " is left over", "the end of the file");
+  }
+  mesh.point_colors = point_colors.finish();
+  mesh.face_colors = face_colors.finish();
+  return mesh;
+}
+
+PolygonMesh read_binary(ByteCursor in, OffHeader header) {
+  in.at("header");
+  header.vertices = read_count(in, "vertices");
+  header.faces = read_count(in, "faces");
+  in.number(Scalar::int32);  // edges, not used by any reader
+  PolygonMesh mesh;
+  reserve(mesh, header, in.remaining(), 12, 20);
+  ColorList point_colors, face_colors;
+  read_body(in, header, mesh, point_colors, face_colors);
   if (!in.done())
     in.fail_here(std::to_string(in.remaining()) + " bytes are left over", "the end of the file");
   mesh.point_colors = point_colors.finish();

@@ -6,6 +6,8 @@
 namespace tendril {
 namespace {
 
+using test::Keep;
+using test::keep;
 using test::Random;
 
 /// Largest difference between the exact gradient and central differences of order 4 with step h, relative to
@@ -38,20 +40,6 @@ double gradient_error(const System& system, const State& state, double h) {
 /// gap.
 double gradient_error(const System& system, const State& state) {
   return std::min(gradient_error(system, state, 2e-4), gradient_error(system, state, 4e-5));
-}
-
-/// Which energies a rod keeps.
-enum class Keep { all, stretch, bend_l, bend_m, bend_t, twist };
-
-void keep(Rod& rod, Keep what) {
-  const auto drop = [&](Keep which, std::vector<double>& values) {
-    if (what != Keep::all && what != which) std::fill(values.begin(), values.end(), 0.0);
-  };
-  drop(Keep::stretch, rod.stretch);
-  drop(Keep::bend_l, rod.bend_l);
-  drop(Keep::bend_m, rod.bend_m);
-  drop(Keep::bend_t, rod.bend_t);
-  drop(Keep::twist, rod.twist);
 }
 
 class EveryEnergy : public testing::TestWithParam<Keep> {};

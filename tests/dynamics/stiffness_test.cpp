@@ -7,6 +7,7 @@
 namespace tendril {
 namespace {
 
+using test::Keep;
 using test::Random;
 
 /// Largest difference between the exact Hessian and central differences of order 4 of the exact gradient,
@@ -37,31 +38,17 @@ double hessian_error(const System& system, const State& state) {
   return std::min(hessian_error(system, state, 1e-3), hessian_error(system, state, 1e-4));
 }
 
-enum class Keep { all, stretch, bend_l, bend_m, bend_t, twist };
-
 class EverySpring : public testing::TestWithParam<Keep> {};
 INSTANTIATE_TEST_SUITE_P(Springs, EverySpring,
                          testing::Values(Keep::all, Keep::stretch, Keep::bend_l, Keep::bend_m, Keep::bend_t,
                                          Keep::twist));
 
-Rod rod_with(Keep what, Random& random) {
-  Rod rod = test::uneven_rod(random, 8);
-  const auto drop = [&](Keep which, std::vector<double>& values) {
-    if (what != Keep::all && what != which) std::fill(values.begin(), values.end(), 0.0);
-  };
-  drop(Keep::stretch, rod.stretch);
-  drop(Keep::bend_l, rod.bend_l);
-  drop(Keep::bend_m, rod.bend_m);
-  drop(Keep::bend_t, rod.bend_t);
-  drop(Keep::twist, rod.twist);
-  return rod;
-}
-
 TEST_P(EverySpring, HasTheExactHessian) {
   Random random(41);
   for (int trial = 0; trial < 6; ++trial) {
     Scene scene;
-    scene.rods.push_back(rod_with(GetParam(), random));
+    scene.rods.push_back(test::uneven_rod(random, 8));
+    test::keep(scene.rods[0], GetParam());
     scene.twist = Scene::Twist::everywhere;
     if (trial % 2) scene.anchors = {{0, 0, true, true, {}}, {0, 4, false, true, {}}};
     const System system(scene);

@@ -2,6 +2,7 @@
 
 #include <tendril/dynamics/system.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,6 +50,20 @@ inline Rod uneven_rod(Random& random, int nodes) {
     rod.width.push_back(0.2);
   }
   return rod;
+}
+
+/// Which springs a rod keeps.
+enum class Keep { all, stretch, bend_l, bend_m, bend_t, twist };
+
+inline void keep(Rod& rod, Keep what) {
+  const auto drop = [&](Keep which, std::vector<double>& values) {
+    if (what != Keep::all && what != which) std::fill(values.begin(), values.end(), 0.0);
+  };
+  drop(Keep::stretch, rod.stretch);
+  drop(Keep::bend_l, rod.bend_l);
+  drop(Keep::bend_m, rod.bend_m);
+  drop(Keep::bend_t, rod.bend_t);
+  drop(Keep::twist, rod.twist);
 }
 
 inline Vec3 at(const Eigen::VectorXd& y, std::size_t node) {
