@@ -1,30 +1,47 @@
 // Extension point: an integrator of one's own on the system's equations. The classic Runge-Kutta method with
 // a fixed step; halving the step divides its error by 2^4.
 #include <tendril/dynamics/forces.h>
-#include <tendril/dynamics/system.h>
+#include <tendril/dynamics/stepper.h>
 
 #include <cmath>
 #include <cstdio>
 
 using namespace tendril;
 
-bool step(const System& system, System::Workspace& work, State& state, double h) {
-  Eigen::VectorXd k1, k2, k3, k4;
-  const bool ok = system.derivative(state, state.time, state.y, k1, work).ok() &&
-                  system.derivative(state, state.time + h / 2, state.y + h / 2 * k1, k2, work).ok() &&
-                  system.derivative(state, state.time + h / 2, state.y + h / 2 * k2, k3, work).ok() &&
-                  system.derivative(state, state.time + h, state.y + h * k3, k4, work).ok();
-  if (!ok) return false;
-  state.y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  state.time += h;
-  return system.rebase(state, work).ok();
-}
+class Classic : public Stepper {
+ public:
+  explicit Classic(const System& system) : system_(system), work_(system.make_workspace()) {}
+
+  Evaluation advance(State& state, double h) override {
+    const double t = state.time;
+    Eigen::VectorXd k1, k2, k3, k4;
+    if (const Evaluation at = rate(state, t, state.y, k1); !at.ok()) return at;
+    if (const Evaluation at = rate(state, t + h / 2, state.y + h / 2 * k1, k2); !at.ok()) return at;
+    if (const Evaluation at = rate(state, t + h / 2, state.y + h / 2 * k2, k3); !at.ok()) return at;
+    if (const Evaluation at = rate(state, t + h, state.y + h * k3, k4); !at.ok()) return at;
+    state.y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    state.time += h;
+    return system_.rebase(state, *work_);
+  }
+  long evaluations() const override { return evaluations_; }
+  const char* name() const override { return "my Runge-Kutta 4"; }
+
+ private:
+  Evaluation rate(const State& state, double t, const Eigen::VectorXd& y, Eigen::VectorXd& k) {
+    ++evaluations_;
+    return system_.derivative(state, t, y, k, *work_);
+  }
+
+  const System& system_;
+  System::WorkspacePtr work_;
+  long evaluations_ = 0;
+};
 
 Vec3 tip_after(const System& system, int steps) {
   State state = system.rest_state();
-  const auto work = system.make_workspace();
+  Classic stepper(system);
   for (int i = 0; i < steps; ++i)
-    if (!step(system, *work, state, 0.5 / steps)) return Vec3::Constant(std::nan(""));
+    if (!stepper.advance(state, 0.5 / steps).ok()) return Vec3::Constant(std::nan(""));
   return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.node_count() - 1));
 }
 
