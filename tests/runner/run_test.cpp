@@ -151,6 +151,9 @@ TEST(Run, CtrlCLeavesWholeFilesAndASummary) {
   const Folder folder;
   folder.write("tube.off", tube_off());
   Json scene = Json::parse(full_scene());
+  // The damped stem alone under gravity: a run that would go on for long, whatever the machine's speed.
+  scene["curve_pairs"].erase(1);
+  scene["forces"] = Json::array({scene["forces"][0]});
   scene["simulation"] = {
       {"duration", 5000}, {"output_every", 1.0}, {"tolerance", 1e-4}, {"work_limit", 4000000000}};
   folder.write("scene.json", scene.dump());
@@ -166,7 +169,7 @@ TEST(Run, CtrlCLeavesWholeFilesAndASummary) {
   EXPECT_EQ(summary.at("status"), "cancelled");
   const long outputs = summary.at("outputs").get<long>();
   const std::string trajectory = bytes_of(folder / "out/trajectory.csv");
-  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + outputs * (6 + 4));
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + outputs * 6);
   long frames = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
     const std::string name = entry.path().filename().string();
