@@ -24,6 +24,9 @@ Vec3 tip_under_load(int edges, double load) {
 struct Elastica {
   double load, drop, shortening, tolerance;
 };
+void PrintTo(const Elastica& exact, std::ostream* out) {
+  *out << "load " << exact.load;
+}
 
 class TipLoad : public testing::TestWithParam<Elastica> {};
 // Elliptic integrals: load P L^2 / E I, tip drop and shortening over L.

@@ -60,6 +60,9 @@ struct Swing {
   double young;
   long work_limit;
 };
+void PrintTo(const Swing& swing, std::ostream* out) {
+  *out << swing.nodes << " nodes, E " << swing.young;
+}
 
 System swinging_rod(const Swing& swing) {
   Scene scene;
