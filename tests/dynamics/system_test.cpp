@@ -12,12 +12,7 @@ std::string refused(const std::function<void(Scene&)>& spoil) {
   Scene scene;
   scene.rods.push_back(test::straight_rod(4, 1e6, 0.01));
   spoil(scene);
-  try {
-    const System system(scene);
-  } catch (const InvalidInput& error) {
-    return error.place();
-  }
-  return "accepted";
+  return test::place_of_refusal(scene);
 }
 
 TEST(SystemInput, IsRefusedWithThePlace) {

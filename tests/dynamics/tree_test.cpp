@@ -174,12 +174,7 @@ TEST(TreeInput, IsRefusedWithThePlace) {
   const auto place = [](const std::function<void(Scene&)>& spoil) -> std::string {
     Scene scene = tree();
     spoil(scene);
-    try {
-      const System system(scene);
-    } catch (const InvalidInput& error) {
-      return error.place();
-    }
-    return "accepted";
+    return test::place_of_refusal(scene);
   };
   EXPECT_EQ(place([](Scene&) {}), "accepted");
   EXPECT_EQ(place([](Scene& s) { s.joints[1].parent = 9; }), "joints[1].parent");

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <tendril/base/error.h>
 #include <tendril/dynamics/system.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "support/random.h"
 
@@ -50,6 +52,16 @@ inline Rod uneven_rod(Random& random, int nodes) {
     rod.width.push_back(0.2);
   }
   return rod;
+}
+
+/// Where a scene is refused, or "accepted".
+inline std::string place_of_refusal(const Scene& scene) {
+  try {
+    const System system(scene);
+  } catch (const InvalidInput& error) {
+    return error.place();
+  }
+  return "accepted";
 }
 
 /// Which springs a rod keeps.
