@@ -39,7 +39,7 @@ void Controller::choose() {
   }
   measure_guard();
   const bool first = !std::exchange(started_, true);
-  const double wish = first ? h_ : (embedded_->stiff() ? h_ : wished_);
+  const double wish = first || embedded_->stiff() ? h_ : wished_;
   const double ratio = wish / report_.guard_step;
   const auto numbers = [&] {
     return sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ",

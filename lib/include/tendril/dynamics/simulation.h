@@ -84,8 +84,8 @@ class Simulation {
   /// Called after every accepted step with the time reached; false cancels.
   void on_progress(std::function<bool(double time)> progress);
 
-  /// Runs on to time `until`, calling followers at the start (output), at each of `outputs` (ascending,
-  /// within the run) and at accepted steps. May be called again to go on.
+  /// Runs on to time `until`, calling followers at each of `outputs` (ascending, within the run; the start
+  /// only when it is among them) and at accepted steps. May be called again to go on.
   Report run(double until, std::span<const double> outputs = {});
 
   const State& state() const;
