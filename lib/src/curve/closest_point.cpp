@@ -8,6 +8,7 @@
 
 #include "capsule_tree.h"
 #include "distance_search.h"
+#include "minima_sweep.h"
 
 namespace tendril {
 
@@ -31,6 +32,8 @@ struct CurveProjector::Data {
     double t, distance, gap;
   };
   virtual Found find(const Vec3& p, const Bounds& bounds, double upper) const = 0;
+  /// Local minima up to the distance `cut`, in the order of t.
+  virtual std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const = 0;
 
   double size(const Vec3& p) const { return diagonal + (p - centre).norm(); }
   Bounds bounds(const Vec3& p) const {
@@ -87,7 +90,10 @@ std::vector<Vec3> all_points(const std::vector<search::Piece<P>>& pieces) {
 template <int P>
 struct DataOfDegree final : CurveProjector::Data {
   explicit DataOfDegree(const BSpline& c)
-      : Data(c), pieces(sub_pieces<P>(curve)), tree(all_points<P>(pieces), P + 1) {}
+      : Data(c),
+        pieces(sub_pieces<P>(curve)),
+        fine(search::fine_pieces<P>(curve)),
+        tree(all_points<P>(pieces), P + 1) {}
 
   Found find(const Vec3& p, const Bounds& bounds, double upper) const override {
     search::Search<P> search(curve, p, bounds, upper);
@@ -96,7 +102,30 @@ struct DataOfDegree final : CurveProjector::Data {
     return {search.t(), search.distance(), search.gap()};
   }
 
+  std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const override {
+    std::vector<std::size_t> near;
+    tree.descend(
+        p, [&] { return cut; }, [&](std::size_t piece) { near.push_back(piece); });
+    std::sort(near.begin(), near.end());
+    search::Ridge ridge(curve, p, cut, blur);
+    search::Sweep<P> examiner(p, cut, blur, ridge);
+    const std::size_t parts = pieces.size() / fine.size();
+    std::size_t expected = 0;
+    for (const std::size_t i : near) {
+      if (i != expected) ridge.far(pieces[i].begin);
+      examiner.examine(pieces[i], fine[i / parts], static_cast<int>(i % parts), static_cast<int>(parts));
+      expected = i + 1;
+    }
+    if (expected == pieces.size()) {
+      ridge.trend(1, curve.knots().end());
+    } else {
+      ridge.far(curve.knots().end());
+    }
+    return ridge.take_all();
+  }
+
   std::vector<search::Piece<P>> pieces;
+  std::vector<search::FinePiece<P>> fine;
   CapsuleTree tree;
 };
 
@@ -175,6 +204,67 @@ Projection describe(const CurveProjector::Data& data, const Vec3& p,
   return result;
 }
 
+/// What a side of a joint says: lambda there, and the cosine between the offset and the way out.
+struct Side {
+  double lambda, cosine;
+};
+
+Side side(const BSpline& curve, double t, int span, const Vec3& offset, double way) {
+  const Basis basis = curve.knots().basis_in_span(t, span, 2);
+  const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
+  const double speed = d1.norm(), distance = offset.norm();
+  if (!(speed > 0.0)) return {0.0, 0.0};
+  const Vec3 d2 = combine(basis, curve.degree(), curve.control_points(), 2);
+  const double cosine = distance > 0.0 ? way * offset.dot(d1) / (speed * distance) : 0.0;
+  return {std::max(0.0, 1.0 + offset.dot(d2) / (speed * speed)), std::clamp(cosine, 0.0, 1.0)};
+}
+
+double strength(const BSpline& curve, const Projection& at, const Vec3& p) {
+  if (at.kind == ProjectionKind::interior) return std::max(0.0, at.lambda);
+  const KnotVector& knots = curve.knots();
+  const int span = knots.span(at.t);
+  const Side right = side(curve, at.t, span, at.point - p, 1.0);
+  if (at.kind == ProjectionKind::start) return right.lambda + right.cosine;
+  int before = span;
+  if (at.kind == ProjectionKind::joint)
+    while (before > knots.degree() && knots.knots()[static_cast<std::size_t>(before)] >= at.t) --before;
+  const Side left = side(curve, at.t, before, at.point - p, -1.0);
+  if (at.kind == ProjectionKind::end) return left.lambda + left.cosine;
+  const double both = left.cosine + right.cosine;
+  if (!(both > 0.0)) return 0.0;
+  return (left.cosine * (right.lambda + right.cosine) + right.cosine * (left.lambda + left.cosine)) / both;
+}
+
+/// The minimum that the nearest point is, or the end of the list.
+std::size_t same_place(const std::vector<search::Minimum>& minima, const Projection& nearest, double slack) {
+  std::size_t best = minima.size();
+  for (std::size_t i = 0; i < minima.size(); ++i)
+    if (minima[i].distance <= nearest.distance + slack &&
+        (best == minima.size() || std::abs(minima[i].t - nearest.t) < std::abs(minima[best].t - nearest.t)))
+      best = i;
+  return best;
+}
+
+std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, const Projection& nearest,
+                               double band) {
+  if (!(band >= 0.0)) throw InvalidInput("CurveProjector: band", std::to_string(band), "0 or more");
+  const Bounds bounds = data.bounds(p);
+  const double cut =
+      std::min(std::numeric_limits<double>::max(), (1.0 + band) * nearest.distance + bounds.slack);
+  const std::vector<search::Minimum> minima = data.sweep(p, std::min(cut, 1e153), bounds.blur);
+  const std::size_t first = same_place(minima, nearest, bounds.slack);
+  const bool known = first < minima.size();
+  std::vector<LocalMinimum> result;
+  result.push_back({nearest, strength(data.curve, nearest, p), !known || minima[first].cluster,
+                    known ? minima[first].multiplicity : 1});
+  for (std::size_t i = 0; i < minima.size(); ++i) {
+    if (i == first) continue;
+    const Projection at = describe(data, p, {minima[i].t, minima[i].distance, minima[i].gap});
+    result.push_back({at, strength(data.curve, at, p), minima[i].cluster, minima[i].multiplicity});
+  }
+  return result;
+}
+
 void check(const Vec3& p) {
   if (!(p.cwiseAbs().maxCoeff() <= kLargest) || !is_finite(p))
     throw InvalidInput("CurveProjector: point", "not finite or beyond 1e150", "three finite numbers");
@@ -193,6 +283,14 @@ Projection CurveProjector::nearest(const Vec3& p, double hint) const {
   check(p);
   if (std::isnan(hint)) throw InvalidInput("CurveProjector: hint", "not a number", "a parameter");
   return describe(*data_, p, data_->find(p, data_->bounds(p), (data_->curve.value(hint) - p).norm()));
+}
+
+std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band) const {
+  return list(*data_, p, nearest(p), band);
+}
+
+std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band, double hint) const {
+  return list(*data_, p, nearest(p, hint), band);
 }
 
 const BSpline& CurveProjector::curve() const {

@@ -3,6 +3,7 @@
 #include <tendril/curve/bspline.h>
 
 #include <memory>
+#include <vector>
 
 namespace tendril {
 
@@ -25,6 +26,19 @@ struct Projection {
   double lambda;
   /// Proven: distance - gap <= true minimum <= distance. Same unit as distance.
   double gap;
+};
+
+/// A local minimum of the distance along the curve.
+struct LocalMinimum : Projection {
+  /// 0 where the minimum is about to be born or to die, and continuous where it wanders over a joint or into
+  /// an end: lambda (at least 0) inside; plus the cosine between offset and tangent at an end; at a kink the
+  /// means of its two sides, each weighted by the other's cosine.
+  double strength;
+  /// Set where double-double arithmetic cannot tell the critical points of the distance apart: closer than
+  /// 1e-8 of their span, or a point where the curve stands still.
+  bool cluster;
+  int multiplicity;  ///< at most so many critical points are in the cluster, counted with multiplicity; else
+                     ///< 1
 };
 
 /// Nearest point on a B-spline, for every finite point: ends, joints, points of zero speed and overlaps
@@ -55,6 +69,18 @@ class CurveProjector {
   /// Same result, bit for bit; `hint` is a parameter thought to be close to it (a neighbour's), which bounds
   /// the search from the start. Clamped to the domain; a NaN is InvalidInput.
   Projection nearest(const Vec3& p, double hint) const;
+
+  /// All local minima of the distance that are at most (1 + band) times as far as the nearest: the nearest
+  /// first, bit for bit as above, the others in the order of t. `gap` bounds each one's difference from the
+  /// true local minimum in its place.
+  ///
+  /// Complete: the slope of the squared distance is signed by its Bernstein coefficients under a forward
+  /// error bound against the exact curve, in double-double arithmetic where a double cannot; what stays
+  /// unsigned is reported as a cluster. A minimum at a distance within rounding of the band's edge may be in
+  /// or out. Cost: nearest(), and as much again per piece of the curve within the band. \param band  0 or
+  /// more; infinity for all minima there are. A negative one or NaN is InvalidInput
+  std::vector<LocalMinimum> all(const Vec3& p, double band) const;
+  std::vector<LocalMinimum> all(const Vec3& p, double band, double hint) const;
 
   const BSpline& curve() const;
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+
+namespace tendril {
+
+/// Unevaluated sum of two doubles, about 106 bits (Dekker 1971; Knuth's two-sum). For the few sub-pieces
+/// whose slopes a double cannot sign. Errors of + and - are relative to |a| + |b|, of * to |a b|: 2^-102
+/// covers each.
+struct DoubleDouble {
+  double high = 0.0, low = 0.0;
+
+  DoubleDouble() = default;
+  DoubleDouble(double x) : high(x) {}  // NOLINT(google-explicit-constructor): a double is one
+  DoubleDouble(double h, double l) : high(h), low(l) {}
+
+  static DoubleDouble sum(double a, double b) {
+    const double s = a + b, bb = s - a;
+    return {s, (a - (s - bb)) + (b - bb)};
+  }
+  friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+    const DoubleDouble s = sum(a.high, b.high);
+    return sum(s.high, s.low + (a.low + b.low));
+  }
+  friend DoubleDouble operator-(DoubleDouble a) { return {-a.high, -a.low}; }
+  friend DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + (-b); }
+  friend DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+    const double p = a.high * b.high;
+    return sum(p, std::fma(a.high, b.high, -p) + (a.high * b.low + a.low * b.high));
+  }
+  friend DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+    const double q = a.high / b.high;
+    const DoubleDouble rest = a - b * DoubleDouble(q);
+    const double q2 = rest.high / b.high;
+    const DoubleDouble last = rest - b * DoubleDouble(q2);
+    return DoubleDouble(q) + DoubleDouble(q2) + DoubleDouble(last.high / b.high);
+  }
+  DoubleDouble& operator+=(DoubleDouble b) { return *this = *this + b; }
+};
+
+inline double to_double(double x) {
+  return x;
+}
+inline double to_double(DoubleDouble x) {
+  return x.high;
+}
+
+/// Relative error of one operation.
+template <class T>
+inline constexpr double unit_of = 0x1p-53;
+template <>
+inline constexpr double unit_of<DoubleDouble> = 0x1p-102;
+
+}  // namespace tendril
