@@ -1,0 +1,28 @@
+#pragma once
+
+#include "bench/contest.h"
+#include "bench/output.h"
+
+/// The parts of the bench. Each prints its tables and returns them as JSON; facts that do not hold (of
+/// accuracy, never of time) are added to `broken`.
+namespace tendril::bench {
+
+struct Settings {
+  bool quick = false;
+  std::vector<std::string> broken;
+};
+
+/// The machine's limits and the cost of the equations per node.
+OrderedJson right_hand_side(const Settings& settings);
+
+/// One second of the clamped rod to 1e-3 of its length, by every method: stiffness against number of nodes,
+/// and damping and mass ratios.
+OrderedJson stiff_rods(Settings& settings);
+
+/// Time per node and step, and memory, as chains and trees grow.
+OrderedJson growth(const Settings& settings);
+
+/// One second of a plant.
+OrderedJson plant_in_real_time(Settings& settings);
+
+}  // namespace tendril::bench
