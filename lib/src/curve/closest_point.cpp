@@ -254,8 +254,13 @@ std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, 
   const std::vector<search::Minimum> minima = data.sweep(p, std::min(cut, 1e153), bounds.blur);
   const std::size_t first = same_place(minima, nearest, bounds.slack);
   const bool known = first < minima.size();
+  const double domain = data.curve.knots().end() - data.curve.knots().start();
+  // Where the distance is flat to rounding the sweep places its minimum better.
+  const bool same = !known || std::abs(minima[first].t - nearest.t) <= 1e-7 * domain;
+  const Projection front =
+      same ? nearest : describe(data, p, {minima[first].t, minima[first].distance, minima[first].gap});
   std::vector<LocalMinimum> result;
-  result.push_back({nearest, strength(data.curve, nearest, p), !known || minima[first].cluster,
+  result.push_back({front, strength(data.curve, front, p), !known || minima[first].cluster,
                     known ? minima[first].multiplicity : 1});
   for (std::size_t i = 0; i < minima.size(); ++i) {
     if (i == first) continue;

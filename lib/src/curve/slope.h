@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "distance_search.h"
 #include "double_double.h"
@@ -192,7 +193,9 @@ struct Stretch {
     }
     if (changes == 0 && certain) return before > 0 ? Trend::up : Trend::down;
     const auto [smallest, largest] = bend();
-    if (sign(first) < 0 && before > 0) return smallest > 2.5 * error ? Trend::valley : Trend::unknown;
+    // In doubles a valley must be firm enough to place its bottom to 1e-7 of the stretch.
+    const double firm = std::is_same_v<T, double> ? 1e7 : 2.5;
+    if (sign(first) < 0 && before > 0) return smallest > firm * error ? Trend::valley : Trend::unknown;
     if (sign(first) > 0 && before < 0 && ((changes == 1 && certain) || largest < -2.5 * error))
       return Trend::peak;
     return Trend::unknown;

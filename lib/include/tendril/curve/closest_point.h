@@ -71,8 +71,9 @@ class CurveProjector {
   Projection nearest(const Vec3& p, double hint) const;
 
   /// All local minima of the distance that are at most (1 + band) times as far as the nearest: the nearest
-  /// first, bit for bit as above, the others in the order of t. `gap` bounds each one's difference from the
-  /// true local minimum in its place.
+  /// first, the others in the order of t. The first is nearest() bit for bit, but where the distance is so
+  /// flat that two places 1e-7 of the domain apart differ by rounding only: then this one is the better
+  /// placed. `gap` bounds each one's difference from the true local minimum in its place.
   ///
   /// Complete: the slope of the squared distance is signed by its Bernstein coefficients under a forward
   /// error bound against the exact curve, in double-double arithmetic where a double cannot; what stays
