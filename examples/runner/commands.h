@@ -20,6 +20,7 @@ Command deform_command(CLI::App& parent);
 Command project_command(CLI::App& parent);
 Command check_command(CLI::App& parent);
 Command render_command(CLI::App& parent);
+Command report_command(CLI::App& parent);
 
 /// What --threads asks for; 0 means all the machine has.
 int thread_count(int asked);

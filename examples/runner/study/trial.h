@@ -1,0 +1,86 @@
+#pragma once
+
+#include "read/scene_reader.h"
+
+#include <functional>
+
+namespace tendril::runner {
+
+/// CPU time of this thread [s].
+double cpu_seconds();
+
+/// Where all masses are and how their frames stand, at each output of a run and at its end.
+struct Track {
+  struct Moment {
+    double time;
+    std::vector<Vec3> p;
+    std::vector<Frame> frames;
+  };
+  std::vector<Moment> moments;
+};
+
+/// How far two runs are apart, the largest over the moments both have.
+struct Distance {
+  double position = 0.0;  ///< root mean square over the masses, relative to a length
+  double director = 0.0;  ///< root mean square angle between the frames [rad]
+};
+Distance distance(const Track& a, const Track& b, double length);
+
+/// The longest curve-pair at rest: what position errors are relative to.
+double scene_length(const System& system);
+
+/// A method and what it is told: a tolerance, or a step where it chooses none.
+struct Setting {
+  Method method;
+  double value;
+  bool by_step() const { return !chooses_steps(method); }
+};
+/// "rodas at 1e-06", "verlet, step 0.001"
+std::string to_string(const Setting& setting);
+
+/// One run of the scene.
+struct Trial {
+  enum class Outcome {
+    finished,
+    refused,  ///< by the library, before or on the way; see reason
+    capped,   ///< its time was up; its cost is extrapolated, its error that of the part it did
+    skipped   ///< not begun; see reason
+  } outcome = Outcome::finished;
+  Setting setting;
+  std::string reason;
+  Report report;
+  double cpu = 0.0;          ///< [s], of the whole run: extrapolated when capped
+  double evaluations = 0.0;  ///< the same
+  Track track;
+  std::optional<Distance> error;  ///< against the reference
+  bool finished() const { return outcome == Outcome::finished; }
+};
+const char* to_string(Trial::Outcome outcome);
+
+/// Runs a scene again and again.
+class Study {
+ public:
+  /// All kept by reference.
+  Study(const SceneFile& file, const System& system) : file_(file), system_(system) {}
+
+  /// Called while a run goes on, with the part of it that is done; false ends the study by throwing
+  /// Cancelled.
+  void on_progress(std::function<bool(double part)> progress) { progress_ = std::move(progress); }
+  struct Cancelled {};
+
+  /// \param cap  CPU seconds. \param patient  lifts the scene's limit on work, so that only the cap counts
+  Trial run(const Setting& setting, double cap, bool patient = false) const;
+
+  /// Largest stable step of an explicit method of fixed step at the start; 0 for the others.
+  double stable_step(Method method) const;
+
+  const SceneFile& file() const { return file_; }
+  const System& system() const { return system_; }
+
+ private:
+  const SceneFile& file_;
+  const System& system_;
+  std::function<bool(double)> progress_;
+};
+
+}  // namespace tendril::runner
