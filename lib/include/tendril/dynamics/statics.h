@@ -1,0 +1,92 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace tendril {
+
+/// How an equilibrium is looked for. Lengths compare with the longest rod's length l at rest.
+struct StaticsOptions {
+  /// `stable`: down the energy, off every branch that has become unstable. `nearest`: along the branch,
+  /// stable or not.
+  enum class Seek { stable, nearest } seek = Seek::stable;
+
+  /// First the loads grow from one share of themselves to the other at the start's time, then anchors and
+  /// forces are followed in time until `until` (default: not at all).
+  double first_load = 0.0, last_load = 1.0;
+  std::optional<double> until = {};
+
+  /// Of the last Newton step: its largest position over l or angle, or, less along soft directions, the root
+  /// of the energy it gains over B / l (the bending stiffness of the softest rod, over its length). Where
+  /// steps no longer shrink and gain less than the rounding of the energy (1e-13 of its parts), the search
+  /// ends too: see Equilibrium::last_step.
+  double tolerance = 1e-9;
+  double largest_step = 1.0;  ///< of the loads' way, and of the time's, in one go: 0 to 1
+  long work_limit = 20'000;   ///< factorisations of the tangent
+  /// Called after every step with the part of the way done; false cancels.
+  std::function<bool(double part)> progress = {};
+};
+
+/// Why the search ended. Only `converged` is success; after any other the state is the last equilibrium found
+/// on the way.
+enum class Balance {
+  converged,
+  stalled,  ///< no step of the loads or the time is short enough, or rounding hides the tolerance
+  work_limit,
+  not_evaluable,  ///< zero-length edge, fold-back or a number that is not finite where the search leads
+  cancelled,
+};
+const char* to_string(Balance balance);
+
+/// Stability of an equilibrium by the eigenvalues of its tangent K x = mu D x, D the share of the length l of
+/// each node (over l^2 for positions, plain for angles), so that mu is an energy: B / l times 12.36 for the
+/// straight cantilever. Neutral within the larger of 1e-8 B / l and the rounding of K. For loads without an
+/// energy the symmetric part of K counts.
+struct Stability {
+  enum class Kind { stable, neutral, unstable } kind = Kind::neutral;
+  int unstable = 0;              ///< eigenvalues below -threshold
+  int neutral = 0;               ///< within it
+  double smallest = 0.0;         ///< the smallest eigenvalue [energy]
+  double threshold = 0.0;        ///< [energy]
+  Eigen::VectorXd displacement;  ///< its mode: 3 per node, largest entry 1, or empty where nothing moves
+};
+const char* to_string(Stability::Kind kind);
+
+struct Equilibrium {
+  State state;  ///< at rest, its frames renewed, twists unwrapped
+  Balance balance = Balance::converged;
+  std::string reason;  ///< one sentence with load, time, rod, node and numbers; empty when converged
+  double load = 0.0;   ///< share reached
+  Stability stability;
+  bool conservative = true;   ///< all loads have an energy (at a fixed time) and all joints react
+  double residual = 0.0;      ///< largest unbalanced force, or torque over l, relative to `force_scale`
+  double force_scale = 0.0;   ///< the largest of the loads' sum, a held node's reaction, and B / l^2
+  double last_step = 0.0;     ///< what `tolerance` was compared with
+  double elastic = 0.0;       ///< energy
+  double potential = 0.0;     ///< of the loads that have one, at their last share
+  std::vector<Vec3> support;  ///< per anchor, the force it puts on its node; 0 where it holds no position
+  long steps = 0, iterations = 0, factorisations = 0;
+  int left = 0;  ///< unstable branches left on the way
+};
+
+/// Equilibrium of a scene: Newton's method on positions and directors with the exact Hessian of the elastic
+/// energy (loads that depend on the state by differences), followed from `start` as loads or anchors change
+/// in steps whose predicted turns are small. Each step turns edges rather than shears them, and is watched by
+/// the energy, or where a load has none by the unbalanced forces. An indefinite tangent is shifted until it
+/// goes downhill (`stable`), and an unstable equilibrium is left along its lowest mode, the sign chosen by
+/// the energy and else always the same. Deterministic. Cost: O(nodes) a factorisation on chains and trees.
+///
+/// The condition of a fine clamped rod grows with the fourth power of its edges: beyond some thousands
+/// rounding hides small tolerances, and the result says so.
+///
+/// \param start  anything near the first equilibrium, as rest_state(time); velocities are put to 0
+/// Throws InvalidInput for options out of range.
+Equilibrium find_equilibrium(const System& system, State start, const StaticsOptions& options = {});
+
+/// Stability of a state as it stands, an equilibrium or not. All loads at `load` of themselves.
+Stability stability_of(const System& system, const State& state, double load = 1.0);
+
+}  // namespace tendril

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <string>
+
+namespace tendril {
+
+/// The free coordinates of a system at rest, node by node (p, then the turn about the tangent), children
+/// before their parents and each rod from its tip to its root: elimination in this order makes no fill on
+/// chains and trees.
+class StaticCoordinates {
+ public:
+  explicit StaticCoordinates(const System& system);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(node_.size()); }
+  std::size_t node(Eigen::Index k) const { return node_[static_cast<std::size_t>(k)]; }
+  /// 0 to 2 for a position, 3 for the turn.
+  int axis(Eigen::Index k) const { return axis_[static_cast<std::size_t>(k)]; }
+  /// Place in the gradient of System::elastic_gradient, and back (-1 where held).
+  Eigen::Index in_gradient(Eigen::Index k) const { return in_gradient_[static_cast<std::size_t>(k)]; }
+  Eigen::Index row_of(Eigen::Index in_gradient) const {
+    return row_of_[static_cast<std::size_t>(in_gradient)];
+  }
+  Eigen::Index row(std::size_t node, int axis) const {
+    return row_[4 * node + static_cast<std::size_t>(axis)];
+  }
+
+  bool holds_position(std::size_t node) const { return held_position_[node] != 0; }
+  bool holds_frame(std::size_t node) const { return held_frame_[node] != 0; }
+  const std::vector<std::size_t>& children_first() const { return rods_; }
+  /// Per rod: the parent's node its root rides on, or -1.
+  std::ptrdiff_t ride(std::size_t rod) const { return ride_[rod]; }
+  bool reacts(std::size_t rod) const { return reacts_[rod] != 0; }
+
+  double length() const { return length_; }  ///< of the longest rod at rest
+  double energy_scale() const { return energy_scale_; }
+  const Eigen::VectorXd& weight() const { return weight_; }  ///< D of Stability
+
+  /// Moves by x and on to `time`: edges are turned and stretched, not sheared, and what does not close
+  /// between two held nodes is closed by small turns of the edges between them, not by strain. Frames are not
+  /// renewed.
+  void displace(State& state, const Eigen::VectorXd& x, double time) const;
+
+  /// How much of what one step may do x does: turn an edge by half a radian, stretch it by 0.3 of its length,
+  /// turn a node by one radian against the next.
+  double reach(const State& state, const Eigen::VectorXd& x, double time) const;
+
+  /// Largest position over the length, or angle.
+  double norm(const Eigen::VectorXd& x) const;
+
+  /// Puts velocities and spins to 0.
+  void stop(State& state) const;
+
+  /// "rod 1 node 3"
+  std::string place(std::size_t node) const;
+
+ private:
+  void hold();
+  void sort_rods();
+  void number();
+  void measure();
+  Eigen::VectorXd moves(const State& state, const Eigen::VectorXd& x, double time) const;
+  double turn_of(std::size_t node, const Eigen::VectorXd& x) const;
+  void thread(State& state, const NodeRange& rod, const Eigen::VectorXd& move) const;
+  Vec3 shared(const State& state, std::size_t from, std::size_t to, const Vec3& miss, double soft) const;
+  void turn_to_close(State& state, std::size_t from, std::size_t to, const Vec3& miss, double turn) const;
+  void close(State& state, std::size_t from, std::size_t to, const Vec3& target, double turn) const;
+
+  const System& system_;
+  std::vector<std::size_t> node_;
+  std::vector<int> axis_;
+  std::vector<Eigen::Index> in_gradient_, row_of_, row_;
+  std::vector<Eigen::Index> turn_in_y_;  ///< per node, or -1
+  std::vector<char> held_position_, held_frame_, reacts_;
+  std::vector<const Anchor*> anchor_;  ///< per node that one moves, or null
+  std::vector<std::size_t> rods_;
+  std::vector<std::ptrdiff_t> ride_;
+  double length_ = 0.0, energy_scale_ = 0.0;
+  Eigen::VectorXd weight_;
+};
+
+}  // namespace tendril

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "statics_coordinates.h"
+
+namespace tendril {
+
+/// External forces of a scene at rest, on the free coordinates.
+class StaticLoads {
+ public:
+  /// Both kept by reference.
+  StaticLoads(const System& system, const StaticCoordinates& coordinates);
+
+  /// All loads have an energy, or are the same in every state.
+  bool conservative() const { return conservative_; }
+  bool any() const { return !system_.scene().forces.empty(); }
+
+  /// Loads on the free coordinates at the state's time; `potential` is their energy, by their definition or
+  /// as dead loads.
+  Evaluation add(const State& state, Eigen::VectorXd& q, double& potential, System::Workspace& work);
+
+  /// dq/dx by central differences, coloured: a load is taken to reach no farther than the springs do.
+  /// \param pattern  of the elastic Hessian, in the order of System::elastic_gradient
+  Evaluation differentiate(const State& state, const Eigen::SparseMatrix<double>& pattern,
+                           std::vector<Eigen::Triplet<double>>& out, System::Workspace& work);
+  bool depends_on_state() const { return depends_on_state_; }
+
+  /// Sum of the sizes of the forces last added, of torques over the length.
+  double sum() const { return sum_; }
+  /// Forces on the nodes last added.
+  const std::vector<Vec3>& force() const { return force_; }
+
+ private:
+  StateView look(const State& state, const std::vector<Frame>& frames);
+  void pass_to_parents();
+  void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q) const;
+  void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent,
+                      Eigen::VectorXd& q) const;
+  void colour(const Eigen::SparseMatrix<double>& pattern);
+  Evaluation moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q, System::Workspace& work);
+
+  const System& system_;
+  const StaticCoordinates& coordinates_;
+  bool conservative_ = true, depends_on_state_ = false;
+  double sum_ = 0.0;
+  std::vector<double> mass_, width_, spin_;
+  std::vector<Vec3> p_, v_, t_, force_, torque_;
+  std::vector<std::vector<std::size_t>> near_;     ///< per node, the nodes it couples with, itself too
+  std::vector<std::vector<std::size_t>> colours_;  ///< nodes that feel nothing in common
+};
+
+}  // namespace tendril

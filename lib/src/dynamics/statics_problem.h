@@ -1,0 +1,57 @@
+#pragma once
+
+#include <tendril/dynamics/statics.h>
+
+#include "statics_loads.h"
+
+namespace tendril {
+
+/// A state that is its own reference, and how far it is from balance.
+struct Poise {
+  State state;
+  double load = 0.0;
+  double elastic = 0.0, potential = 0.0;
+  Eigen::VectorXd gradient;  ///< elastic, in the order of System::elastic_gradient
+  Eigen::VectorXd loads;     ///< on the free coordinates, at their full share
+  Eigen::VectorXd residual;  ///< elastic gradient less the share of the loads
+  double energy() const { return elastic + load * potential; }
+};
+
+/// Unbalanced forces and tangent of a system at rest.
+class StaticProblem {
+ public:
+  explicit StaticProblem(const System& system);
+
+  const System& system() const { return system_; }
+  const StaticCoordinates& coordinates() const { return coordinates_; }
+  Eigen::Index size() const { return coordinates_.size(); }
+  bool conservative() const { return conservative_; }
+
+  /// Renews the frames of a poise whose state and load are set, and fills the rest.
+  Evaluation settle(Poise& at);
+
+  /// A poise moved by x at its load and on to `time`, settled.
+  Evaluation move(const Poise& from, const Eigen::VectorXd& x, double time, double load, Poise& to);
+
+  /// d residual / ds on the way (load, time) + s (by_load, by_time), 0 <= s <= 1.
+  Evaluation drift(const Poise& at, double by_load, double by_time, Eigen::VectorXd& rate);
+
+  /// d residual / dx, of conservative scenes the lower triangle.
+  Evaluation tangent(const Poise& at, Eigen::SparseMatrix<double>& k);
+
+  /// The largest of the loads, the reactions of held nodes, and B / l^2.
+  double force_scale(const Poise& at);
+  /// Largest force, or torque over the length.
+  double largest(const Eigen::VectorXd& residual) const;
+  /// The forces of anchors on their nodes.
+  std::vector<Vec3> support(const Poise& at);
+
+ private:
+  const System& system_;
+  System::WorkspacePtr work_;
+  StaticCoordinates coordinates_;
+  StaticLoads loads_;
+  bool conservative_;
+};
+
+}  // namespace tendril

@@ -1,0 +1,152 @@
+#include "statics_tangent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace tendril {
+namespace {
+
+constexpr double kRounding = 1e-16;  // of an eigenvalue, over the largest row sum
+constexpr double kNeutral = 1e-8;    // of an eigenvalue, over B / l
+constexpr double kSoft = 1e-13;      // of a pivot, over its diagonal entry
+constexpr int kIterations = 200;     // of the power of the inverse
+constexpr double kSettled = 1e-12;   // change of the eigenvalue at which they end
+
+/// Numbers in [-1, 1) without a pattern, the same everywhere (SplitMix64).
+Eigen::VectorXd scattered(Eigen::Index size) {
+  Eigen::VectorXd v(size);
+  std::uint64_t state = 1;
+  for (double& x : v) {
+    state += 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    x = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-52 - 1.0;
+  }
+  return v;
+}
+
+/// A shift that leaves no eigenvalue below 0, at most four times as large as needed.
+double lifting(StaticTangent& tangent, double threshold) {
+  double shift = threshold;
+  for (int i = 0; i < 200; ++i, shift *= 4)
+    if (tangent.factorise(shift) && tangent.negative() == 0) return shift;
+  return shift;
+}
+
+}  // namespace
+
+void StaticTangent::set(const Eigen::SparseMatrix<double>& k, bool symmetric) {
+  symmetric_ = symmetric;
+  analysed_ = false;
+  root_ = weight_.cwiseSqrt();
+  s_ = k;
+  diagonal_.setZero(s_.cols());
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(s_.cols());
+  for (Eigen::Index c = 0; c < s_.cols(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(s_, c); entry; ++entry) {
+      entry.valueRef() /= root_[entry.row()] * root_[c];
+      sums[entry.row()] += std::abs(entry.value());
+      if (symmetric_ && entry.row() != c) sums[c] += std::abs(entry.value());
+      if (entry.row() == c) diagonal_[c] = entry.value();
+    }
+  rounding_ = sums.size() > 0 ? kRounding * sums.maxCoeff() : 0.0;
+}
+
+void StaticTangent::symmetrise() {
+  if (symmetric_) return;
+  const Eigen::SparseMatrix<double> transposed = s_.transpose();
+  const Eigen::SparseMatrix<double> mean = 0.5 * (s_ + transposed);
+  s_ = mean.triangularView<Eigen::Lower>();
+  analysed_ = false;
+  symmetric_ = true;
+}
+
+bool StaticTangent::factorise(double shift) {
+  ++factorisations;
+  shift_ = shift;
+  if (symmetric_) {
+    if (!analysed_) ldlt_.analyzePattern(s_);
+    analysed_ = true;
+    ldlt_.setShift(shift);
+    ldlt_.factorize(s_);
+    return ldlt_.info() == Eigen::Success && ldlt_.vectorD().allFinite();
+  }
+  Eigen::SparseMatrix<double> unit(s_.rows(), s_.cols());
+  unit.setIdentity();
+  const Eigen::SparseMatrix<double> shifted = s_ + shift * unit;
+  lu_.compute(shifted);
+  return lu_.info() == Eigen::Success;
+}
+
+int StaticTangent::negative() const {
+  return symmetric_ ? static_cast<int>((ldlt_.vectorD().array() < 0.0).count()) : 0;
+}
+
+bool StaticTangent::soft() const {
+  if (!symmetric_) return false;
+  const auto& d = ldlt_.vectorD();
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (std::abs(d[i]) < kSoft * std::abs(diagonal_[i] + shift_)) return true;
+  return false;
+}
+
+Eigen::VectorXd StaticTangent::solve_scaled(const Eigen::VectorXd& b) const {
+  return symmetric_ ? Eigen::VectorXd(ldlt_.solve(b)) : Eigen::VectorXd(lu_.solve(b));
+}
+
+Eigen::VectorXd StaticTangent::solve(const Eigen::VectorXd& b) const {
+  return solve_scaled(b.cwiseQuotient(root_)).cwiseQuotient(root_);
+}
+
+Eigen::VectorXd StaticTangent::solve_but_neutral(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd v = solve_scaled(b.cwiseQuotient(root_));
+  for (int i = 0; i < 2; ++i) v -= shift_ * solve_scaled(v);
+  return v.cwiseQuotient(root_);
+}
+
+Eigen::VectorXd StaticTangent::times(const Eigen::VectorXd& v) const {
+  return s_.selfadjointView<Eigen::Lower>() * v;
+}
+
+double neutral_threshold(const StaticCoordinates& coordinates, const StaticTangent& tangent) {
+  return std::max(kNeutral * coordinates.energy_scale(), tangent.rounding());
+}
+
+LowestMode lowest_mode(StaticTangent& tangent, double threshold) {
+  lifting(tangent, threshold);
+  LowestMode mode;
+  Eigen::VectorXd v = scattered(tangent.root().size()).normalized();
+  double last = 0.0;
+  for (int i = 0; i < kIterations; ++i) {
+    v = tangent.solve_scaled(v).normalized();
+    mode.value = v.dot(tangent.times(v));
+    if (i > 3 && std::abs(mode.value - last) <= kSettled * std::max(std::abs(mode.value), threshold)) break;
+    last = mode.value;
+  }
+  mode.x = v.cwiseQuotient(tangent.root());
+  return mode;
+}
+
+Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent) {
+  Stability out;
+  if (coordinates.size() == 0) {
+    out.kind = Stability::Kind::stable;
+    return out;
+  }
+  tangent.symmetrise();
+  out.threshold = neutral_threshold(coordinates, tangent);
+  tangent.factorise(out.threshold);
+  out.unstable = tangent.negative();
+  tangent.factorise(-out.threshold);
+  out.neutral = tangent.negative() - out.unstable;
+  const LowestMode mode = lowest_mode(tangent, out.threshold);
+  out.smallest = mode.value;
+  out.kind = out.unstable > 0  ? Stability::Kind::unstable
+             : out.neutral > 0 ? Stability::Kind::neutral
+                               : Stability::Kind::stable;
+  return out;
+}
+
+}  // namespace tendril
