@@ -35,6 +35,7 @@ std::vector<Solver> sundials_solvers();
 /// Name and version, or that it is absent.
 std::string odeint_version();
 std::string sundials_version();
+std::string mujoco_version();
 
 /// Root mean square distance of the nodes over the problem's length.
 double distance(const Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b);

@@ -21,7 +21,7 @@ void triad(const Array& b, const Array& c, double s, Array& a) {
 
 struct Chain {
   explicit Chain(std::size_t n) : edge_length(1.0 / static_cast<double>(n)) {
-    for (auto* arrays : {&p, &v, &dp, &dv, &edge, &force}) arrays->fill(Array(n + 4, 0.0));
+    for (auto* arrays : {&p, &v, &dp, &dv, &edge}) arrays->fill(Array(n + 4, 0.0));
     for (std::size_t i = 0; i < n + 4; ++i) {
       p[0][i] = static_cast<double>(i) * edge_length;
       p[1][i] = 0.1 * edge_length * std::sin(0.3 * static_cast<double>(i));
@@ -30,20 +30,25 @@ struct Chain {
   }
 
   void stretch(std::size_t n) {
+    const double *px = p[0].data(), *py = p[1].data(), *pz = p[2].data();
+    double* __restrict ex = edge[0].data();
+    double* __restrict ey = edge[1].data();
+    double* __restrict ez = edge[2].data();
+    const double rest = edge_length;
     for (std::size_t i = 0; i < n + 3; ++i) {
-      const double x = p[0][i + 1] - p[0][i], y = p[1][i + 1] - p[1][i], z = p[2][i + 1] - p[2][i];
-      const double length = std::sqrt(x * x + y * y + z * z);
-      const double tension = 1e3 * (length - edge_length) / length;
-      edge[0][i] = tension * x;
-      edge[1][i] = tension * y;
-      edge[2][i] = tension * z;
+      const double x = px[i + 1] - px[i], y = py[i + 1] - py[i], z = pz[i + 1] - pz[i];
+      const double tension = 1e3 * (1.0 - rest / std::sqrt(x * x + y * y + z * z));
+      ex[i] = tension * x;
+      ey[i] = tension * y;
+      ez[i] = tension * z;
     }
   }
 
   void rates(std::size_t n) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double *x = p[k].data(), *w = v[k].data(), *f = edge[k].data();
-      double *dx = dp[k].data(), *dw = dv[k].data();
+      double* __restrict dx = dp[k].data();
+      double* __restrict dw = dv[k].data();
       for (std::size_t i = 2; i < n + 2; ++i) {
         const double fourth = x[i - 2] - 4 * x[i - 1] + 6 * x[i] - 4 * x[i + 1] + x[i + 2];
         dw[i] = 1e2 * (f[i] - f[i - 1] - 3.0 * fourth) - 0.5 * w[i];
@@ -53,7 +58,7 @@ struct Chain {
   }
 
   double edge_length;
-  std::array<Array, 3> p, v, dp, dv, edge, force;
+  std::array<Array, 3> p, v, dp, dv, edge;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Times of the dynamics and of its peers, from one run on one thread:
-//   dynamics_bench [--quick] [--json FILE] [--only rhs|stiff|growth|plant]
+//   dynamics_bench [--quick] [--json FILE] [--only rhs|stiff|growth|plant|mujoco]
 // Exit code 0; 1 when something is wrong that no machine's speed can excuse; 2 for bad arguments.
 #include <tendril/base/file.h>
 
@@ -36,7 +36,7 @@ Arguments read(int argc, char** argv) {
 int run(const Arguments& arguments) {
   Settings settings{arguments.quick, {}};
   OrderedJson out;
-  for (const std::string& peer : {odeint_version(), sundials_version()}) {
+  for (const std::string& peer : {odeint_version(), sundials_version(), mujoco_version()}) {
     std::printf("peer: %s\n", peer.c_str());
     out["peers"].push_back(peer);
   }
@@ -44,6 +44,7 @@ int run(const Arguments& arguments) {
   if (wanted("rhs")) out["right_hand_side"] = right_hand_side(settings);
   if (wanted("growth")) out["growth"] = growth(settings);
   if (wanted("plant")) out["plant"] = plant_in_real_time(settings);
+  if (wanted("mujoco")) out["mujoco"] = mujoco_chain(settings);
   if (wanted("stiff")) out["stiff_rods"] = stiff_rods(settings);
   out["broken"] = settings.broken;
   if (!arguments.json.empty()) write_file_whole(arguments.json, out.dump(2) + "\n");
@@ -57,7 +58,7 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   const tendril::bench::Arguments arguments = tendril::bench::read(argc, argv);
   if (!arguments.understood) {
-    std::fprintf(stderr, "%s [--quick] [--json FILE] [--only rhs|growth|plant|stiff]\n", argv[0]);
+    std::fprintf(stderr, "%s [--quick] [--json FILE] [--only rhs|growth|plant|mujoco|stiff]\n", argv[0]);
     return 2;
   }
   try {

@@ -56,6 +56,7 @@ Problem cantilever(const Cantilever& what) {
   scene.rods.push_back(std::move(rod));
   scene.anchors.push_back({.rod = 0, .node = 0});
   add_gravity(scene);
+  if (what.twist) scene.twist = Scene::Twist::everywhere;
   Problem out = at_rest(name_of(what), std::move(scene), 1.0);
   for (Eigen::Index i = 1; i < what.nodes; ++i)
     out.start.y[3 * what.nodes + 3 * i + 1] = 0.05 * static_cast<double>(i) / (what.nodes - 1);

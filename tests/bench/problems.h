@@ -19,6 +19,7 @@ struct Cantilever {
   double young = 1e6;
   double viscosity = 0.0;   ///< Kelvin-Voigt beta [s]
   double mass_ratio = 1.0;  ///< every second mass is lighter by this
+  bool twist = false;       ///< keep a twist state that nothing asks for
 };
 
 /// Rod of length 1 m, radius 5 mm, density 1000, horizontal and clamped, with drag 0.5 / s, gravity, and a

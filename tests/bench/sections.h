@@ -25,4 +25,7 @@ OrderedJson growth(const Settings& settings);
 /// One second of a plant.
 OrderedJson plant_in_real_time(Settings& settings);
 
+/// A chain of ball-jointed capsules in MuJoCo beside a rod here, a body and step; nothing when it is absent.
+OrderedJson mujoco_chain(const Settings& settings);
+
 }  // namespace tendril::bench
