@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tendril/base/error.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/rodas.h>
 #include <tendril/dynamics/simulation.h>
@@ -107,15 +106,50 @@ TEST(Rodas, FinishesWhereTheGuardRefuses) {
               test::at(simulation.state().y, 64).z(), sag);
 }
 
-TEST(Rodas, RefusesJoints) {
-  Scene scene = hanging(4, 1e6, true).scene();
-  scene.rods.push_back(scene.rods[0]);
-  const Vec3 shift = scene.rods[0].p[2];
-  for (Vec3& p : scene.rods[1].p) p += shift;
-  for (Vec3& q : scene.rods[1].q) q += shift;
-  scene.joints.push_back({0, 2, 1, true});
+/// A stem with two branches, and a twig on a branch's root.
+Scene bush(bool reaction) {
+  Scene scene = hanging(6, 1e5, true).scene();
+  const auto grow = [&](std::size_t parent, std::size_t node, const Vec3& along) {
+    std::vector<Vec3> p = test::straight(4, 0.4);
+    for (Vec3& at : p) at = scene.rods[parent].p[node] + at.norm() * along.normalized();
+    Rod rod = make_rod(p, orientation_towards(p, Vec3(0.3, 0.2, 1), 0.1), {4e4, 1e4, 500},
+                       elliptic_section(0.012, 0.008));
+    scene.joints.push_back({parent, node, scene.rods.size(), reaction});
+    scene.rods.push_back(std::move(rod));
+  };
+  grow(0, 3, Vec3(0.2, 1, 0.3));
+  grow(0, 6, Vec3(1, -0.5, 0.2));
+  grow(1, 0, Vec3(-0.3, -1, 0.1));
+  return scene;
+}
+
+TEST(Rodas, ConvergesAtOrderFourOnTrees) {
+  for (const bool reaction : {true, false}) {
+    const System system(bush(reaction));
+    EXPECT_NEAR(order_of(system, system.rest_state(), 0.2, 200), 4.0, 0.35) << reaction;
+  }
+}
+
+TEST(Rodas, AgreesWithCashKarpOnATree) {
+  Scene scene = bush(true);
+  scene.forces.push_back(std::make_shared<PointLoad>(PointLoad::Kind::torque, 2, 3, Vec3(0.002, 0.001, 0),
+                                                     Signal::constant(1.0)));
+  scene.rods[1].viscosity = 1e-3;
   const System system(scene);
-  EXPECT_THROW(Rodas rodas(system), InvalidInput);
+  Eigen::VectorXd end[2];
+  int k = 0;
+  for (const Method method : {Method::cash_karp, Method::rodas}) {
+    SimulationOptions options;
+    options.method = method;
+    options.tolerance = 1e-7;
+    Simulation simulation(system, system.rest_state(), options);
+    const Report report = simulation.run(0.3);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_LT(std::abs(report.imbalance), 1e-4);
+    end[k++] = simulation.state().y.head(3 * static_cast<Eigen::Index>(system.node_count()));
+  }
+  std::printf("tree: RODAS against Cash-Karp %.1e\n", (end[0] - end[1]).cwiseAbs().maxCoeff());
+  EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 2e-6);
 }
 
 }  // namespace

@@ -56,6 +56,37 @@ TEST_P(EverySpring, HasTheExactHessian) {
   }
 }
 
+/// A stem with two branches, one of them off the stem's own root, and a twig on the root of the other.
+Scene small_tree(Random& random) {
+  Scene scene;
+  scene.rods.push_back(test::uneven_rod(random, 6));
+  const auto branch = [&](std::size_t parent, std::size_t node) {
+    Rod rod = test::uneven_rod(random, 4);
+    const Vec3 shift = scene.rods[parent].p[node] - rod.p[0];
+    for (std::size_t i = 0; i < rod.p.size(); ++i) {
+      rod.p[i] += shift;
+      rod.q[i] += shift;
+    }
+    scene.joints.push_back({parent, node, scene.rods.size()});
+    scene.rods.push_back(std::move(rod));
+  };
+  branch(0, 3);
+  branch(0, 0);
+  branch(1, 0);
+  branch(1, 1);
+  return scene;
+}
+
+TEST(Stiffness, IsExactAcrossJoints) {
+  Random random(43);
+  for (int trial = 0; trial < 6; ++trial) {
+    Scene scene = small_tree(random);
+    if (trial % 2) scene.anchors = {{0, 0, true, true, {}}};
+    const System system(scene);
+    EXPECT_LT(hessian_error(system, test::stirred(system, random, 0.1)), 1e-8) << trial;
+  }
+}
+
 TEST(Stiffness, IsExactWithoutTwistState) {
   Random random(42);
   Scene scene;

@@ -15,9 +15,12 @@ struct FreeCoordinates {
     std::vector<bool> position(system.node_count(), true);
     std::vector<bool> frame(system.node_count(), system.twist_count() > 0);
     for (const Anchor& anchor : system.scene().anchors) {
-      if (anchor.holds_position) position[anchor.node] = false;
-      if (anchor.holds_frame) frame[anchor.node] = false;
+      const std::size_t node = system.rods()[anchor.rod].first + anchor.node;
+      if (anchor.holds_position) position[node] = false;
+      if (anchor.holds_frame) frame[node] = false;
     }
+    for (const Joint& joint : system.scene().joints)
+      position[system.rods()[joint.child].first] = frame[system.rods()[joint.child].first] = false;
     for (Eigen::Index i = 0; i < n; ++i)
       for (int axis = 0; axis < 3 && position[static_cast<std::size_t>(i)]; ++axis)
         add(3 * i + axis, 3 * i + axis);

@@ -32,11 +32,6 @@ void Controller::take(std::unique_ptr<EmbeddedStepper> stepper, std::string reas
 
 void Controller::choose() {
   if (since_guard_ < (embedded_->stiff() ? kImplicitInterval : kExplicitInterval)) return;
-  if (!system_.scene().joints.empty()) {
-    if (!std::exchange(started_, true))
-      report_.switches.push_back({state_.time, report_.method, "the implicit method takes no joints yet"});
-    return guard();
-  }
   measure_guard();
   const bool first = !std::exchange(started_, true);
   const double wish = first || embedded_->stiff() ? h_ : wished_;

@@ -3,33 +3,56 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <limits>
 
 #include "workspace.h"
 
 namespace tendril {
 
-/// Second derivatives of the elastic energy by the positions of four neighbouring nodes and the angles of the
-/// middle two: what the springs of one edge see. Order: p_{i-1}, p_i, p_{i+1}, p_{i+2}, theta_i, theta_{i+1};
-/// what is not there is 0.
-using EdgeStiffness = Eigen::Matrix<double, 14, 14>;
+/// Second derivatives of the elastic energy by what the springs of one edge see: the positions of up to five
+/// nodes and the angles of two. Positions that ride on another node stand under the node that carries them.
+struct EdgeStiffness {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  static constexpr Eigen::Index kAngles = 15;
 
-/// Exact stiffness of edge i in the coordinates (p, theta) about a state that is its own reference. The
-/// workspace must hold the kinematics, the elastic gradient and its pull-back (kinematics, elastic,
-/// add_pulled_back in that order).
+  std::array<std::size_t, 5> node;   ///< in the order of the positions; kNone for what is not there
+  std::array<std::size_t, 2> angle;  ///< nodes whose angles come last
+  std::array<bool, 5> node_feels{};  ///< whether the row acts: nobody feels through a one-way joint
+  std::array<bool, 2> angle_feels{};
+  Eigen::Matrix<double, 17, 17> k;  ///< 0 where nothing is
+};
+
+/// Exact stiffness of edge i of a rod with twist, in the coordinates (p, theta) about a state that is its own
+/// reference. The workspace must hold the kinematics, the elastic gradient and its pull-back.
 ///
 /// Three levels, each exact: the springs' second derivatives by the unit edge e, the tangents t and the
 /// angles theta; the curvature of t(e) weighted with dE/dt; the curvature of e(p) weighted with dE/de. The
-/// last two are counted with the edge, and with the edge that begins at the node.
-EdgeStiffness edge_stiffness(const System::Model& model, const NodeRange& rod, std::size_t i,
-                             const State& reference, const System::Workspace& work);
+/// last two are counted with the edge, and with the edge that begins at the node. The first edge of a child
+/// rod sees its parent's frame: one more level, the turn of the child's frame by the parent's (t, theta).
+void edge_stiffness(const System::Model& model, const NodeRange& rod, std::size_t i, const State& reference,
+                    const System::Workspace& work, EdgeStiffness& to);
 
 /// Resistance of edge i in the same coordinates: sum k grad q grad q^T over stretch, the two deviations and
 /// the twist. Times the viscosity it is minus the viscous forces' derivative by the velocities.
-EdgeStiffness edge_resistance(const System::Model& model, const NodeRange& rod, std::size_t i,
-                              const System::Workspace& work);
+void edge_resistance(const System::Model& model, const NodeRange& rod, std::size_t i,
+                     const System::Workspace& work, EdgeStiffness& to);
 
-/// Places of those coordinates among n positions and m angles (the order of System::elastic_gradient), -1 for
-/// what is not there.
-std::array<Eigen::Index, 14> edge_places(const System::Model& model, const NodeRange& rod, std::size_t i);
+/// Stretch of edge i, by the vector d along it: k e e^T + k (1 - L / l) (1 - e e^T).
+Mat3 stretch_stiffness(const System::Model& model, std::size_t i, const System::Workspace& work);
+
+/// 1/4 K phi^2 at node i of a rod without twist, by the vectors along its two edges.
+struct HingeStiffness {
+  Mat3 first, mixed, second;
+};
+HingeStiffness hinge_stiffness(const System::Model& model, std::size_t i, const System::Workspace& work);
+
+/// 1/2 K angle^2 between edge i and the held frame of `node` at one of its ends, by the vector along the
+/// edge.
+Mat3 held_hinge_stiffness(const System::Model& model, std::size_t node, std::size_t i,
+                          const System::Workspace& work);
+
+/// Tangent of node i by p_{i-1}, p_i, p_{i+1}.
+Eigen::Matrix<double, 3, 9> tangent_by_positions(const System::Model& model, std::size_t i,
+                                                 const System::Workspace& work);
 
 }  // namespace tendril

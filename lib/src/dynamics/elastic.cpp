@@ -1,322 +1,425 @@
 #include "elastic.h"
 
 #include <cmath>
+#include <cstdint>
+
+#include "lanes.h"
 
 namespace tendril {
 namespace {
 
-using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
 using Model = System::Model;
+using Segment = System::Model::Segment;
+using lanes::V3;
 
-/// Part of v across the unit vector n.
-Vec3 across(const Vec3& n, const Vec3& v) {
-  return v - n.dot(v) * n;
-}
-
-void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
-  for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
-    const Anchor& anchor = model.scene.anchors[a];
-    const std::size_t i = model.rods[anchor.rod].first + anchor.node;
-    work.pose[a] = anchor.motion
-                       ? anchor.motion(t)
-                       : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
-  }
-  for (std::size_t i = 0; i < model.nodes; ++i) {
-    if (model.holds_position(i) && model.anchor_index[i] >= 0) {
-      const AnchorPose& pose = work.pose[static_cast<std::size_t>(model.anchor_index[i])];
-      work.p[i] = pose.position;
-      work.v[i] = pose.velocity;
-    } else {
-      work.p[i] = y.segment<3>(3 * static_cast<Eigen::Index>(i));
-      work.v[i] = y.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i));
-    }
-  }
-}
-
-/// The root of a child rod takes position and frame from the node it rides on, which is known by then.
-void take_ride(const NodeRange& rod, const System::Model::Ride& ride, Workspace& work) {
-  const std::size_t i = rod.first;
-  work.p[i] = work.p[ride.parent];
-  work.v[i] = work.v[ride.parent];
-  const Frame& f = work.frame[ride.parent];
-  const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
-  work.frame[i] = {outside(ride.rest.x), outside(ride.rest.y), outside(ride.rest.z)};
-  const Vec3 turning = f.z.cross(work.t_rate[ride.parent]) + work.spin[ride.parent] * f.z;
-  work.t_rate[i] = turning.cross(work.frame[i].z);
-  work.spin[i] = turning.dot(work.frame[i].z);
-  work.connection[i] = 0.0;
-}
-
-Evaluation measure_edges(const NodeRange& rod, bool rates, Workspace& work) {
-  for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-    const Vec3 d = work.p[i + 1] - work.p[i];
-    work.length[i] = d.norm();
-    if (!std::isfinite(work.length[i])) return {Outcome::not_finite, i};
-    if (!(work.length[i] > 0.0)) return {Outcome::zero_edge, i};
-    work.e[i] = d / work.length[i];
-    if (!rates) continue;
-    const Vec3 d_rate = work.v[i + 1] - work.v[i];
-    work.length_rate[i] = work.e[i].dot(d_rate);
-    work.e_rate[i] = across(work.e[i], d_rate) / work.length[i];
-  }
-  return {};
-}
-
-void take_held_frame(const Model& model, std::size_t i, Workspace& work) {
-  if (model.anchor_index[i] < 0) return;  // riding on a parent: see take_ride
-  const AnchorPose& pose = work.pose[static_cast<std::size_t>(model.anchor_index[i])];
-  work.frame[i] = pose.frame;
-  work.t_rate[i] = pose.angular_velocity.cross(pose.frame.z);
-  work.spin[i] = pose.angular_velocity.dot(pose.frame.z);
-  work.connection[i] = 0.0;
-}
-
-/// Tangent of a free node from its edges (2.7, normalised), with its rate.
-Evaluation take_tangent(const NodeRange& rod, std::size_t i, bool rates, Workspace& work) {
-  Vec3 sum = Vec3::Zero();
-  Vec3 sum_rate = Vec3::Zero();
-  if (i > rod.first) {
-    sum += work.e[i - 1];
-    if (rates) sum_rate += work.e_rate[i - 1];
-  }
-  if (i + 1 < rod.first + rod.count) {
-    sum += work.e[i];
-    if (rates) sum_rate += work.e_rate[i];
-  }
-  work.bisector[i] = sum.norm();
-  if (work.bisector[i] < 1e-9) return {Outcome::fold_back, i};
-  work.frame[i].z = sum / work.bisector[i];
-  if (rates) work.t_rate[i] = across(work.frame[i].z, sum_rate) / work.bisector[i];
-  return {};
-}
-
-/// Director of a free node with twist: the reference carried to the tangent, turned by theta.
-Evaluation take_director(const Model& model, const State& reference, const Eigen::VectorXd& y, std::size_t i,
-                         Workspace& work) {
-  Frame& frame = work.frame[i];
-  const Vec3& from = reference.tangent[i];
-  const double cosine_plus_one = 1.0 + from.dot(frame.z);
-  // Within a step no tangent turns further than 126 degrees: a longer way could take the wrong side.
-  if (!(cosine_plus_one > 0.4)) return {Outcome::turned_too_far, i};
-  const Eigen::Index k = model.twist_index[i];
-  const double theta = y[model.theta_begin() + k];
-  const Vec3 carried = rotate_smallest(from, frame.z, reference.director[i]);
-  frame.y = std::cos(theta) * carried + std::sin(theta) * frame.z.cross(carried);
-  frame.x = frame.y.cross(frame.z);
-  work.spin[i] = y[model.spin_begin() + k];
-  work.connection[i] = from.cross(frame.z).dot(work.t_rate[i]) / cosine_plus_one;
-  return {};
-}
-
-Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y,
-                       const NodeRange& rod, bool rates, Workspace& work) {
-  for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
-    if (model.holds_frame(i)) {
-      take_held_frame(model, i, work);
-      continue;
-    }
-    work.t_rate[i].setZero();
-    if (const Evaluation at = take_tangent(rod, i, rates, work); !at.ok()) return at;
-    work.spin[i] = 0.0;
-    work.connection[i] = 0.0;
-    if (!model.has_twist(i)) continue;
-    if (const Evaluation at = take_director(model, reference, y, i, work); !at.ok()) return at;
-  }
-  return {};
-}
-
-/// The three angular springs of 3.2.3 between the unit edge i and the frame of its node i + side.
-struct BendingSprings {
-  double l, m, t;  ///< stiffness
-  double rest_l, rest_m, rest_t;
-  double viscosity;
+/// What a loop over springs does beside the gradient.
+struct Wanted {
+  bool viscous, third, energy;
 };
 
-double bend_with_director(const BendingSprings& k, std::size_t i, std::size_t node, Workspace& work,
-                          double& dissipated) {
-  const Frame& f = work.frame[node];
-  const Vec3& e = work.e[i];
-  const EdgeAngles a = edge_angles(e, f);
-  double fl = k.l * (a.l - k.rest_l);
-  double fm = k.m * (a.m - k.rest_m);
-  double energy = 0.5 * (fl * (a.l - k.rest_l) + fm * (a.m - k.rest_m));
-  if (k.viscosity > 0.0) {
-    // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-    const Vec3& t_rate = work.t_rate[node];
-    const double w = work.spin[node];
-    const double l_rate = (work.e_rate[i].dot(f.x) - f.x.dot(t_rate) * a.z + w * a.y) / a.cl;
-    const double m_rate = (work.e_rate[i].dot(f.y) - f.y.dot(t_rate) * a.z - w * a.x) / a.cm;
-    dissipated += k.viscosity * (k.l * l_rate * l_rate + k.m * m_rate * m_rate);
-    fl += k.viscosity * k.l * l_rate;
-    fm += k.viscosity * k.m * m_rate;
+/// Raw columns of a loop, so that the compiler knows they do not overlap.
+struct Reader {
+  explicit Reader(const Columns3& c) : x(c.x.data()), y(c.y.data()), z(c.z.data()) {}
+  const double* __restrict x, * __restrict y, * __restrict z;
+  TENDRIL_INLINE V3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+struct Writer {
+  explicit Writer(Columns3& c) : x(c.x.data()), y(c.y.data()), z(c.z.data()) {}
+  double* __restrict x, * __restrict y, * __restrict z;
+  TENDRIL_INLINE void put(std::size_t i, const V3& v) const {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
   }
-  const double gl = fl / a.cl;
-  const double gm = fm / a.cm;
-  work.g_edge[i] += gl * f.x + gm * f.y;
-  work.g_tangent[node] -= a.z * (gl * f.x + gm * f.y);
-  work.g_spin[node] += gl * a.y - gm * a.x;
-  if (k.t > 0.0) {
-    const double strain = a.t - k.rest_t;
-    energy += 0.5 * k.t * strain * strain;
+};
+
+/// One edge at one node: the edge's components in the node frame, stiffness and rest, and what comes of it.
+struct End {
+  V3 e, e_rate;
+  double k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
+};
+struct NodeMotion {
+  V3 l, m, t, t_rate;
+  double spin;
+};
+template <Wanted W>
+TENDRIL_INLINE void bend(const End& s, const NodeMotion& f, V3& edge, V3& tangent, double& g_spin,
+                         double& energy, double& heat) {
+  const double x = lanes::dot(s.e, f.l);
+  const double y = lanes::dot(s.e, f.m);
+  const double z = lanes::dot(s.e, f.t);
+  const lanes::Deviation l = lanes::deviation(x, std::sqrt(y * y + z * z));
+  const lanes::Deviation m = lanes::deviation(y, std::sqrt(x * x + z * z));
+  double fl = s.k_l * (l.angle - s.rest_l);
+  double fm = s.k_m * (m.angle - s.rest_m);
+  if constexpr (W.energy) energy += 0.5 * (fl * (l.angle - s.rest_l) + fm * (m.angle - s.rest_m));
+  if constexpr (W.viscous) {
+    // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
+    const double l_rate =
+        (lanes::dot(s.e_rate, f.l) - lanes::dot(f.l, f.t_rate) * z + f.spin * y) * l.inverse_cosine;
+    const double m_rate =
+        (lanes::dot(s.e_rate, f.m) - lanes::dot(f.m, f.t_rate) * z - f.spin * x) * m.inverse_cosine;
+    heat += s.viscosity * (s.k_l * l_rate * l_rate + s.k_m * m_rate * m_rate);
+    fl += s.viscosity * s.k_l * l_rate;
+    fm += s.viscosity * s.k_m * m_rate;
+  }
+  const double gl = fl * l.inverse_cosine;
+  const double gm = fm * m.inverse_cosine;
+  const V3 across = gl * f.l + gm * f.m;
+  g_spin += gl * y - gm * x;
+  double g = 0.0;
+  if constexpr (W.third) {
+    const double sine = std::sqrt(x * x + y * y);
+    const double strain = lanes::angle(sine, z) - s.rest_t;
+    if constexpr (W.energy) energy += 0.5 * s.k_t * strain * strain;
     // d(angle) = -(de.t + e.dt) / sin(angle); at angle 0 the limit for a rest of 0, nothing at the tip of a
     // rest cone.
-    const double g = a.st > 1e-12 ? k.t * strain / a.st : (k.rest_t == 0.0 ? k.t : 0.0);
-    work.g_edge[i] -= g * f.z;
-    work.g_tangent[node] -= g * e;
+    const double tip = s.rest_t == 0.0 ? s.k_t : 0.0;
+    g = sine > 1e-12 ? s.k_t * strain / (sine > 1e-12 ? sine : 1.0) : tip;
   }
-  return energy;
+  edge = across - g * f.t;
+  tangent = tangent - z * across - g * s.e;
 }
 
-/// Without a twist state bending is isotropic and straight at rest: 1/2 K angle^2 needs no director.
-double bend_by_angle(double stiffness, std::size_t i, std::size_t node, Workspace& work) {
-  const Vec3& t = work.frame[node].z;
-  const Vec3& e = work.e[i];
-  const double sine = e.cross(t).norm();
-  const double angle = std::atan2(sine, e.dot(t));
-  const double g = sine > 1e-12 ? stiffness * angle / sine : stiffness;
-  work.g_edge[i] -= g * t;
-  work.g_tangent[node] -= g * e;
-  return 0.5 * stiffness * angle * angle;
+template <Wanted W>
+TENDRIL_INLINE void bend_nodes(const Model& model, const Segment& segment, Workspace& work) {
+  const Reader e(work.e), e_rate(work.e_rate), m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
+  const Writer before(work.g_before), after(work.g_after), to_tangent(work.g_tangent);
+  double* __restrict to_spin = work.g_spin.data();
+  double* __restrict to_energy = work.energy.data();
+  double* __restrict to_heat = work.heat.data();
+  const double* __restrict spin = work.spin.data();
+  const Model::BendingSide::View a = model.bending.side[0].view();
+  const Model::BendingSide::View b = model.bending.side[1].view();
+  constexpr V3 kNone{0.0, 0.0, 0.0};
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    const V3 mi = m.at(i);
+    const V3 ti = t.at(i);
+    const NodeMotion f{lanes::cross(mi, ti), mi, ti, W.viscous ? t_rate.at(i) : kNone,
+                       W.viscous ? spin[i] : 0.0};
+    const End first{e.at(i - 1),   W.viscous ? e_rate.at(i - 1) : kNone,
+                    a.k_l[i],      a.k_m[i],
+                    a.k_t[i],      a.rest_l[i],
+                    a.rest_m[i],   a.rest_t[i],
+                    a.viscosity[i]};
+    const End second{e.at(i),       W.viscous ? e_rate.at(i) : kNone,
+                     b.k_l[i],      b.k_m[i],
+                     b.k_t[i],      b.rest_l[i],
+                     b.rest_m[i],   b.rest_t[i],
+                     b.viscosity[i]};
+    V3 to_before, to_after;
+    V3 tangent = kNone;
+    double g_spin = 0.0;
+    double energy = 0.0;
+    double heat = 0.0;
+    bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
+    bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
+    before.put(i, to_before);
+    after.put(i, to_after);
+    to_tangent.put(i, tangent);
+    to_spin[i] = g_spin;
+    if constexpr (W.energy) to_energy[i] = energy;
+    if constexpr (W.viscous) to_heat[i] = heat;
+  }
 }
 
-double bend(const Model& model, bool viscous, std::size_t i, Workspace& work, double& dissipated) {
-  double energy = 0.0;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const std::size_t node = i + side;
-    const std::size_t end = 2 * i + side;
-    if (model.has_twist(node)) {
-      const BendingSprings springs{model.bend_l[node],
-                                   model.bend_m[node],
-                                   model.bend_t[node],
-                                   model.rest_l[end],
-                                   model.rest_m[end],
-                                   model.rest_t[end],
-                                   viscous ? model.viscosity[i] : 0.0};
-      energy += bend_with_director(springs, i, node, work, dissipated);
-    } else {
-      energy += bend_by_angle(model.bend_l[node] + model.bend_t[node], i, node, work);
+TENDRIL_LANES void bend_plainly(const Model& model, const Segment& segment, Workspace& work) {
+  bend_nodes<Wanted{false, false, false}>(model, segment, work);
+}
+TENDRIL_LANES void bend_thrice(const Model& model, const Segment& segment, Workspace& work) {
+  bend_nodes<Wanted{false, true, false}>(model, segment, work);
+}
+TENDRIL_LANES void bend_viscously(const Model& model, const Segment& segment, Workspace& work) {
+  bend_nodes<Wanted{true, true, false}>(model, segment, work);
+}
+TENDRIL_LANES void bend_with_energy(const Model& model, const Segment& segment, Workspace& work) {
+  bend_nodes<Wanted{false, true, true}>(model, segment, work);
+}
+
+/// Twist springs of the edges of a segment, into twist_tangent and twist_torque.
+template <Wanted W>
+TENDRIL_INLINE void twist_edges(const Model& model, const double* __restrict reference,
+                                const Segment& segment, Workspace& work) {
+  const Reader m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
+  const Writer tangent(work.twist_tangent);
+  double* __restrict torques = work.twist_torque.data();
+  double* __restrict energy = work.energy.data();
+  double* __restrict heat = work.heat.data();
+  const double* __restrict spin = work.spin.data();
+  const double *__restrict stiffness = model.twist.data(), *__restrict rest = model.rest_twist.data(),
+               *__restrict viscosity = model.viscosity.data();
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    const V3 ta = t.at(i);
+    const V3 tb = t.at(i + 1);
+    const V3 ma = m.at(i);
+    const V3 mb = m.at(i + 1);
+    const double s = 1.0 / (1.0 + lanes::dot(ta, tb));
+    const V3 carried = ma - (lanes::dot(tb, ma) * s) * (ta + tb);
+    const double raw = lanes::angle(lanes::dot(lanes::cross(carried, mb), tb), lanes::dot(carried, mb));
+    const double tau = reference[i] + lanes::less_turns(raw - reference[i]);
+    const double strain = tau - rest[i];
+    double torque = stiffness[i] * strain;
+    if constexpr (W.energy) energy[i] = 0.5 * torque * strain;
+    // d tau = s_b - s_a + c.(dt_a + dt_b): what the smallest rotation between the tangents turns by itself.
+    const V3 c = s * lanes::cross(ta, tb);
+    if constexpr (W.viscous) {
+      const double rate = spin[i + 1] - spin[i] + lanes::dot(c, t_rate.at(i) + t_rate.at(i + 1));
+      const double resistance = viscosity[i] * stiffness[i] * rate;
+      heat[i] = resistance * rate;
+      torque += resistance;
     }
+    torques[i] = torque;
+    tangent.put(i, torque * c);
   }
+}
+
+TENDRIL_LANES void twist_plainly(const Model& model, const double* reference, const Segment& segment,
+                                 Workspace& work) {
+  twist_edges<Wanted{false, false, false}>(model, reference, segment, work);
+}
+TENDRIL_LANES void twist_viscously(const Model& model, const double* reference, const Segment& segment,
+                                   Workspace& work) {
+  twist_edges<Wanted{true, false, false}>(model, reference, segment, work);
+}
+TENDRIL_LANES void twist_with_energy(const Model& model, const double* reference, const Segment& segment,
+                                     Workspace& work) {
+  twist_edges<Wanted{false, false, true}>(model, reference, segment, work);
+}
+
+/// Adds what the twist springs give the nodes.
+TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
+  const Reader from(work.twist_tangent);
+  const Writer to(work.g_tangent);
+  const double* __restrict torque = work.twist_torque.data();
+  double* __restrict spin = work.g_spin.data();
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    to.x[i] += from.x[i - 1] + from.x[i];
+    to.y[i] += from.y[i - 1] + from.y[i];
+    to.z[i] += from.z[i - 1] + from.z[i];
+    spin[i] += torque[i - 1] - torque[i];
+  }
+}
+
+/// Without a twist state bending is isotropic and straight at rest, and a tangent halves the angle phi
+/// between its edges: both its springs together are 1/4 K phi^2, on the edges alone. True when two edges fold
+/// back.
+template <bool Energy>
+TENDRIL_INLINE bool hinge_nodes(const Model& model, const Segment& segment, Workspace& work) {
+  const Reader e(work.e);
+  const Writer before(work.g_before), after(work.g_after);
+  double* __restrict energy = work.energy.data();
+  const double* __restrict stiffness = model.bending.hinge.data();
+  std::int64_t bad = 0;
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    const V3 a = e.at(i - 1);
+    const V3 b = e.at(i);
+    const V3 c = lanes::cross(a, b);
+    const V3 sum = a + b;
+    const double sine = std::sqrt(lanes::dot(c, c));
+    const double phi = lanes::angle(sine, lanes::dot(a, b));
+    const double ratio = sine > 1e-12 ? phi / (sine > 1e-12 ? sine : 1.0) : 1.0;
+    const double g = -0.5 * stiffness[i] * ratio;
+    before.put(i, g * b);
+    after.put(i, g * a);
+    if constexpr (Energy) energy[i] = 0.25 * stiffness[i] * phi * phi;
+    bad |= lanes::dot(sum, sum) >= kFoldBack * kFoldBack || stiffness[i] == 0.0 ? 0 : 1;
+  }
+  return bad != 0;
+}
+
+TENDRIL_LANES bool hinge_plainly(const Model& model, const Segment& segment, Workspace& work) {
+  return hinge_nodes<false>(model, segment, work);
+}
+TENDRIL_LANES bool hinge_with_energy(const Model& model, const Segment& segment, Workspace& work) {
+  return hinge_nodes<true>(model, segment, work);
+}
+
+/// The edges at a held frame of a rod without twist: 1/2 K angle^2 each.
+double bend_held(const Model& model, std::size_t node, Workspace& work) {
+  const Vec3 t = work.frame.z[node];
+  const double stiffness = model.bend_l[node] + model.bend_t[node];
+  Vec3 g_tangent = Vec3::Zero();
+  double energy = 0.0;
+  const auto spring = [&](const Vec3& e) {
+    const double sine = e.cross(t).norm();
+    const double angle = std::atan2(sine, e.dot(t));
+    const double g = sine > 1e-12 ? stiffness * angle / sine : stiffness;
+    g_tangent -= g * e;
+    energy += 0.5 * stiffness * angle * angle;
+    return Vec3(-g * t);
+  };
+  if (model.has_before(node)) work.g_before.set(node, spring(work.e[node - 1]));
+  if (model.has_after(node)) work.g_after.set(node, spring(work.e[node]));
+  work.g_tangent.set(node, g_tangent);
   return energy;
 }
 
-double stretch(const Model& model, bool viscous, std::size_t i, Workspace& work, double& dissipated) {
-  const double strain = work.length[i] - model.rest_length[i];
-  work.g_length[i] = model.stretch[i] * strain;
-  if (viscous) {
+Evaluation hinge(const Model& model, const Segment& segment,
+                 bool (*loop)(const Model&, const Segment&, Workspace&), Workspace& work) {
+  // No springs act on these tangents, but torques may.
+  for (std::size_t i = segment.first; i < segment.end && model.loaded; ++i)
+    work.g_tangent.set(i, Vec3::Zero());
+  if (!loop(model, segment, work)) return {};
+  for (std::size_t i = segment.first; i < segment.end; ++i)
+    if (model.bending.hinge[i] != 0.0 && !((work.e[i - 1] + work.e[i]).norm() >= kFoldBack))
+      return {Evaluation::Outcome::fold_back, i};
+  return {};
+}
+
+double sum_of(const Column& column, const Segment& segment) {
+  double sum = 0.0;
+  for (std::size_t i = segment.first; i < segment.end; ++i) sum += column[i];
+  return sum;
+}
+
+/// What the last loops left where no edge is must not reach the next rod's first node.
+void clear_ends(const Model& model, Workspace& work) {
+  for (const NodeRange& rod : model.rods) {
+    const std::size_t last = rod.first + rod.count - 1;
+    work.twist_tangent.set(last, Vec3::Zero());
+    work.twist_torque[last] = 0.0;
+    work.energy[last] = 0.0;
+    work.heat[last] = 0.0;
+  }
+}
+
+TENDRIL_LANES void stretch_edges(const Model& model, Workspace& work) {
+  const double *__restrict length = work.length.data(), *__restrict rest = model.rest_length.data(),
+               *__restrict stiffness = model.stretch.data();
+  double* __restrict g = work.g_length.data();
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < model.nodes; ++i) g[i] = stiffness[i] * (length[i] - rest[i]);
+}
+
+double resist_stretch(const Model& model, Workspace& work) {
+  double heat = 0.0;
+  for (std::size_t i = 0; i < model.nodes; ++i) {
     const double resistance = model.viscosity[i] * model.stretch[i] * work.length_rate[i];
-    dissipated += resistance * work.length_rate[i];
+    heat += resistance * work.length_rate[i];
     work.g_length[i] += resistance;
   }
-  return 0.5 * model.stretch[i] * strain * strain;
+  return heat;
 }
 
-double twist(const Model& model, const State& reference, bool viscous, std::size_t i, Workspace& work,
-             double& dissipated) {
-  const Frame& a = work.frame[i];
-  const Frame& b = work.frame[i + 1];
-  const double raw = twist_angle(a, b);
-  const double tau = reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI);
-  const double strain = tau - model.rest_twist[i];
-  double torque = model.twist[i] * strain;
-  // d tau = s_b - s_a + c.(dt_a + dt_b): what the smallest rotation between the tangents turns by itself.
-  const Vec3 c = a.z.cross(b.z) / (1.0 + a.z.dot(b.z));
-  if (viscous) {
-    const double rate = work.spin[i + 1] - work.spin[i] + c.dot(work.t_rate[i] + work.t_rate[i + 1]);
-    const double resistance = model.viscosity[i] * model.twist[i] * rate;
-    dissipated += resistance * rate;
-    torque += resistance;
+/// The part of a tangent's gradient that its edges feel.
+TENDRIL_LANES void through_tangents(const Segment& segment, Workspace& work) {
+  const Reader t(work.frame.z), g(work.g_tangent);
+  const Writer to(work.g_bisector);
+  const double* __restrict inverse = work.inverse_bisector.data();
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    const V3 gi = g.at(i);
+    const V3 ti = t.at(i);
+    to.put(i, inverse[i] * (gi - lanes::dot(gi, ti) * ti));
   }
-  work.g_spin[i] -= torque;
-  work.g_spin[i + 1] += torque;
-  work.g_tangent[i] += torque * c;
-  work.g_tangent[i + 1] += torque * c;
-  return 0.5 * model.twist[i] * strain * strain;
+}
+
+TENDRIL_LANES void through_edges(std::size_t nodes, Workspace& work) {
+  const Reader e(work.e), before(work.g_before), after(work.g_after), bisector(work.g_bisector);
+  const Writer to(work.edge_force);
+  const double* __restrict g_length = work.g_length.data(), * __restrict inverse = work.inverse_length.data();
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const V3 g = (after.at(i) + before.at(i + 1)) + (bisector.at(i) + bisector.at(i + 1));
+    const V3 ei = e.at(i);
+    const double along = g_length[i] - inverse[i] * lanes::dot(ei, g);
+    to.put(i, inverse[i] * g + along * ei);
+  }
+}
+
+TENDRIL_LANES void to_masses(std::size_t nodes, Workspace& work) {
+  const Reader from(work.edge_force);
+  const Writer to(work.force);
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < nodes; ++i) to.put(i, from.at(i) - from.at(i - 1));
 }
 
 /// What the root of a child rod feels goes to the node it rides on: the force, and the torque T by
 /// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
-void pass_on(const NodeRange& rod, const System::Model::Ride& ride, Workspace& work) {
+void pass_on_torque(const System::Model::Ride& ride, Workspace& work) {
   if (!ride.reaction) return;
-  const std::size_t i = rod.first;
-  const Vec3& t0 = work.frame[i].z;
-  const Vec3& t = work.frame[ride.parent].z;
-  const Vec3 torque = t0.cross(work.g_tangent[i]) + (work.g_spin[i] - work.torque[i].dot(t0)) * t0;
-  work.g_tangent[ride.parent] += torque.cross(t);
+  const std::size_t i = ride.root;
+  const Vec3 t0 = work.frame.z[i];
+  const Vec3 t = work.frame.z[ride.parent];
+  double along = work.g_spin[i];
+  if (!work.torque.empty()) along -= work.torque[i].dot(t0);
+  const Vec3 torque = t0.cross(work.g_tangent[i]) + along * t0;
+  work.g_tangent.add(ride.parent, torque.cross(t));
   work.g_spin[ride.parent] += torque.dot(t);
-  work.force[ride.parent] += work.force[i];
-  work.force[i].setZero();
-  work.torque[i].setZero();
-  work.g_tangent[i].setZero();
+  work.g_tangent.set(i, Vec3::Zero());
   work.g_spin[i] = 0.0;
+  if (!work.torque.empty()) work.torque[i].setZero();
 }
 
-void pull_back(const Model& model, const NodeRange& rod, Workspace& work) {
-  const std::size_t last = rod.first + rod.count - 1;
-  for (std::size_t i = rod.first; i <= last; ++i) {
-    if (model.holds_frame(i)) continue;
-    const Vec3 g = across(work.frame[i].z, work.g_tangent[i]) / work.bisector[i];
-    if (i > rod.first) work.g_edge[i - 1] += g;
-    if (i < last) work.g_edge[i] += g;
-  }
-  for (std::size_t i = rod.first; i < last; ++i) {
-    const Vec3 f = across(work.e[i], work.g_edge[i]) / work.length[i] + work.g_length[i] * work.e[i];
-    work.force[i] += f;
-    work.force[i + 1] -= f;
-  }
+void pass_on_force(const System::Model::Ride& ride, Workspace& work) {
+  if (!ride.reaction) return;
+  work.force.add(ride.parent, work.force[ride.root]);
+  work.force.set(ride.root, Vec3::Zero());
 }
 
 }  // namespace
 
-System::Workspace::Workspace(const Model& model) : pose(model.scene.anchors.size()) {
-  const std::size_t n = model.nodes;
-  for (auto* vectors : {&p, &v, &e, &e_rate, &t_rate, &g_edge, &g_tangent, &force, &torque, &tangent})
-    vectors->assign(n, Vec3::Zero());
-  frame.assign(n, Frame{});
-  for (auto* numbers : {&length, &length_rate, &bisector, &spin, &connection, &g_length, &g_spin})
-    numbers->assign(n, 0.0);
+Evaluation elastic(const Model& model, const State& reference, bool viscous, Workspace& work, double& heat) {
+  heat = 0.0;
+  stretch_edges(model, work);
+  if (viscous) heat += resist_stretch(model, work);
+  for (const Segment& s : model.segments) {
+    if (!s.twist) {
+      if (const Evaluation at = hinge(model, s, hinge_plainly, work); !at.ok()) return at;
+      continue;
+    }
+    const bool resists = viscous && s.viscous;
+    (resists ? bend_viscously : s.third ? bend_thrice : bend_plainly)(model, s, work);
+    if (resists) heat += sum_of(work.heat, s);
+    (resists ? twist_viscously : twist_plainly)(model, reference.twist.data(), s, work);
+    clear_ends(model, work);
+    if (resists) heat += sum_of(work.heat, s);
+    gather_twist(s, work);
+  }
+  for (const std::size_t node : model.bending.held_hinges) bend_held(model, node, work);
+  return {};
 }
 
-Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
-                      bool rates, Workspace& work) {
-  if (!y.allFinite()) return {Outcome::not_finite, 0};
-  place_nodes(model, t, y, work);
-  for (const std::size_t r : model.order) {
-    const NodeRange& rod = model.rods[r];
-    if (const System::Model::Ride* ride = model.ride_of(r)) take_ride(rod, *ride, work);
-    if (const Evaluation at = measure_edges(rod, rates, work); !at.ok()) return at;
-    if (const Evaluation at = take_frames(model, reference, y, rod, rates, work); !at.ok()) return at;
+Evaluation elastic_energy(const Model& model, const State& reference, Workspace& work, double& energy) {
+  stretch_edges(model, work);
+  energy = 0.0;
+  for (std::size_t i = 0; i < model.nodes; ++i)
+    energy += 0.5 * work.g_length[i] * (work.length[i] - model.rest_length[i]);
+  for (const Segment& s : model.segments) {
+    if (s.twist) {
+      bend_with_energy(model, s, work);
+      energy += sum_of(work.energy, s);
+      twist_with_energy(model, reference.twist.data(), s, work);
+      clear_ends(model, work);
+      gather_twist(s, work);
+    } else if (const Evaluation at = hinge(model, s, hinge_with_energy, work); !at.ok()) {
+      return at;
+    }
+    energy += sum_of(work.energy, s);
   }
+  for (const std::size_t node : model.bending.held_hinges) energy += bend_held(model, node, work);
   return {};
 }
 
 void relax(Workspace& work) {
-  for (auto* vectors : {&work.g_edge, &work.g_tangent})
-    std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
-  for (auto* numbers : {&work.g_length, &work.g_spin}) std::fill(numbers->begin(), numbers->end(), 0.0);
+  for (auto* vectors : {&work.g_before, &work.g_after, &work.g_tangent}) vectors->set_zero();
+  for (auto* numbers : {&work.g_length, &work.g_spin}) numbers->set_zero();
 }
 
-double elastic(const Model& model, const State& reference, bool viscous, Workspace& work,
-               double& dissipated) {
-  double energy = 0.0;
-  dissipated = 0.0;
-  relax(work);
-  for (const NodeRange& rod : model.rods) {
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      energy += stretch(model, viscous, i, work, dissipated);
-      energy += bend(model, viscous, i, work, dissipated);
-      if (model.has_twist(i)) energy += twist(model, reference, viscous, i, work, dissipated);
-    }
-  }
-  return energy;
-}
-
-void add_pulled_back(const Model& model, Workspace& work) {
-  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
-    pull_back(model, model.rods[*r], work);
-    if (const System::Model::Ride* ride = model.ride_of(*r)) pass_on(model.rods[*r], *ride, work);
-  }
+void pull_back(const Model& model, Workspace& work) {
+  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_torque(*ride, work);
+  for (const Segment& s : model.segments)
+    if (s.twist || model.loaded) through_tangents(s, work);
+  through_edges(model.nodes, work);
+  to_masses(model.nodes, work);
+  if (model.loaded)
+    for (std::size_t i = 0; i < model.nodes; ++i) work.force.add(i, work.load[i]);
+  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_force(*ride, work);
 }
 
 }  // namespace tendril

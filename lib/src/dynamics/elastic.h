@@ -4,22 +4,34 @@
 
 namespace tendril {
 
-/// Fills the workspace's kinematics from y. Rates only when asked for.
-Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
-                      bool rates, System::Workspace& work);
+constexpr double kFoldBack = 1e-9;     ///< least length of the sum of two unit edges that gives a tangent
+constexpr double kTurnedTooFar = 0.4;  ///< least 1 + t_s . t
 
-/// Elastic energy at the kinematics, its gradient into g_edge, g_length, g_tangent and g_spin. With `viscous`
-/// (needs rates) every spring but the third acts on strain + beta strain'; returned is still the elastic
-/// energy. \param dissipated  power turned into heat, when viscous
-double elastic(const System::Model& model, const State& reference, bool viscous, System::Workspace& work,
-               double& dissipated);
+bool all_finite(const Eigen::VectorXd& values);
+
+/// What kinematics are filled: places and frames; what the springs need, with rates; or all, with rates.
+enum class Motion { places, springs, all };
+
+/// Fills the workspace's kinematics from y.
+Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                      Motion what, System::Workspace& work);
+
+/// Gradient of the elastic energy at the kinematics. With `viscous` (needs rates) every spring but the third
+/// acts on strain + beta strain'. Fails where two edges fold back on each other.
+/// \param heat  power turned into heat, when viscous
+Evaluation elastic(const System::Model& model, const State& reference, bool viscous, System::Workspace& work,
+                   double& heat);
+
+/// The elastic energy with its gradient.
+Evaluation elastic_energy(const System::Model& model, const State& reference, System::Workspace& work,
+                          double& energy);
 
 /// The gradient of no springs at all.
 void relax(System::Workspace& work);
 
-/// Turns g_edge, g_length and g_tangent into forces on the masses, added to work.force. The tangents of held
-/// frames do not depend on the masses.
-void add_pulled_back(const System::Model& model, System::Workspace& work);
+/// Turns the gradient by tangents and edges into forces on the masses, in work.force. The tangents of held
+/// frames do not depend on the masses; what the root of a child rod feels goes to the node it rides on.
+void pull_back(const System::Model& model, System::Workspace& work);
 
 /// The equations of motion: y' at (t, y), with or without the springs and their viscous parts.
 Evaluation rates(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,

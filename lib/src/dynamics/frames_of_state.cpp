@@ -16,21 +16,22 @@ void carry_along(const Model& model, const State& state, const NodeRange& rod, W
   for (std::size_t i = rod.first; i <= last; ++i)
     if (model.holds_frame(i)) seed = i;
   const auto set = [&](std::size_t i, const Vec3& y) {
-    work.frame[i].y = (y - y.dot(work.frame[i].z) * work.frame[i].z).normalized();
-    work.frame[i].x = work.frame[i].y.cross(work.frame[i].z);
+    const Vec3 t = work.frame.z[i];
+    work.frame.y.set(i, (y - y.dot(t) * t).normalized());
   };
   if (!model.holds_frame(seed))
-    set(seed, rotate_smallest(state.tangent[seed], work.frame[seed].z, state.director[seed]));
+    set(seed, rotate_smallest(state.tangent[seed], work.frame.z[seed], state.director[seed]));
   for (std::size_t i = seed; i < last; ++i)
-    set(i + 1, rotate_about(work.frame[i + 1].z, model.rest_twist[i],
-                            rotate_smallest(work.frame[i].z, work.frame[i + 1].z, work.frame[i].y)));
+    set(i + 1, rotate_about(work.frame.z[i + 1], model.rest_twist[i],
+                            rotate_smallest(work.frame.z[i], work.frame.z[i + 1], work.frame.y[i])));
   for (std::size_t i = seed; i > rod.first; --i)
-    set(i - 1, rotate_smallest(work.frame[i].z, work.frame[i - 1].z,
-                               rotate_about(work.frame[i].z, -model.rest_twist[i - 1], work.frame[i].y)));
+    set(i - 1, rotate_smallest(work.frame.z[i], work.frame.z[i - 1],
+                               rotate_about(work.frame.z[i], -model.rest_twist[i - 1], work.frame.y[i])));
 }
 
 Evaluation all_frames(const Model& model, const State& state, Workspace& work) {
-  if (const Evaluation at = kinematics(model, state, state.time, state.y, false, work); !at.ok()) return at;
+  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::places, work); !at.ok())
+    return at;
   for (const NodeRange& rod : model.rods)
     if (!model.has_twist(rod.first)) carry_along(model, state, rod, work);
   return {};
@@ -46,7 +47,7 @@ Evaluation System::rebase(State& state, Workspace& work) const {
     state.y.segment<3>(at) = work.p[i];
     state.y.segment<3>(model.v_begin() + at) = work.v[i];
     // Rounding would let the director lean towards the tangent over many steps.
-    const Frame& frame = work.frame[i];
+    const Frame frame = work.frame[i];
     state.tangent[i] = frame.z;
     state.director[i] = (frame.y - frame.y.dot(frame.z) * frame.z).normalized();
     if (!model.has_twist(i)) continue;
@@ -63,7 +64,10 @@ Evaluation System::rebase(State& state, Workspace& work) const {
 }
 
 std::vector<Frame> System::frames(const State& state, Workspace& work) const {
-  return all_frames(*model_, state, work).ok() ? work.frame : std::vector<Frame>{};
+  std::vector<Frame> frames;
+  if (!all_frames(*model_, state, work).ok()) return frames;
+  for (std::size_t i = 0; i < model_->nodes; ++i) frames.push_back(work.frame[i]);
+  return frames;
 }
 
 std::vector<Vec3> System::orientation_masses(const State& state, Workspace& work) const {
@@ -71,7 +75,7 @@ std::vector<Vec3> System::orientation_masses(const State& state, Workspace& work
   if (!all_frames(*model_, state, work).ok()) return q;
   for (std::size_t i = 0; i < model_->nodes; ++i) {
     const Vec3& offset = model_->offset[i];
-    q.push_back(work.p[i] + offset.y() * work.frame[i].y + offset.z() * work.frame[i].z);
+    q.push_back(work.p[i] + offset.y() * work.frame.y[i] + offset.z() * work.frame.z[i]);
   }
   return q;
 }

@@ -1,9 +1,12 @@
 #include "model.h"
 
 #include <tendril/base/error.h>
+#include <tendril/dynamics/forces.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <typeinfo>
 
 namespace tendril {
 namespace {
@@ -90,6 +93,8 @@ System::Model::Model(Scene description) : scene(std::move(description)) {
     scene.forces[f]->check(rods);
   }
   choose_twist();
+  choose_forces();
+  lay_out_springs();
 }
 
 void System::Model::flatten(const Rod& rod) {
@@ -109,7 +114,7 @@ void System::Model::flatten(const Rod& rod) {
   damping.resize(nodes, rod.mass_damping);
   viscosity.resize(nodes, rod.viscosity);
   for (auto* edges : {&stretch, &twist, &width, &rest_length, &rest_twist}) edges->resize(nodes, 0.0);
-  for (auto* ends : {&rest_l, &rest_m, &rest_t}) ends->resize(2 * nodes, 0.0);
+  for (auto* numbers : {&rest_l, &rest_m, &rest_t}) numbers->resize(2 * nodes, 0.0);
 
   const NodeFrames frames = node_frames(rod.p, rod.q);
   append(rest_frame, frames.frame);
@@ -183,7 +188,7 @@ void System::Model::place_joints() {
     const Frame& g = rest_frame[root];
     const auto inside = [&](const Vec3& v) { return Vec3(v.dot(f.x), v.dot(f.y), v.dot(f.z)); };
     ride_index[joint.child] = static_cast<int>(rides.size());
-    rides.push_back({parent, {inside(g.x), inside(g.y), inside(g.z)}, joint.reaction});
+    rides.push_back({root, parent, {inside(g.x), inside(g.y), inside(g.z)}, joint.reaction});
     held_position[root] = held_frame[root] = 1;
   }
 }
@@ -203,10 +208,23 @@ void System::Model::sort_rods() {
   for (std::size_t k = 0; k < order.size(); ++k)
     order.insert(order.end(), children[order[k]].begin(), children[order[k]].end());
   if (order.size() < rods.size()) throw InvalidInput("joints", "a rod is its own ancestor", "trees of rods");
+  std::vector<Ride> sorted;
+  for (const std::size_t r : order)
+    if (const Ride* ride = ride_of(r)) {
+      ride_index[r] = static_cast<int>(sorted.size());
+      sorted.push_back(*ride);
+    }
+  rides = std::move(sorted);
+  carrier.resize(nodes);
+  std::iota(carrier.begin(), carrier.end(), std::size_t{0});
+  feels.assign(nodes, 1);
+  for (const Ride& ride : rides) {
+    carrier[ride.root] = carrier[ride.parent];
+    feels[ride.root] = feels[ride.parent] != 0 && ride.reaction;
+  }
   // From the leaves up: a root's mass goes to its parent's node, also where that is itself a root.
-  for (auto r = order.rbegin(); r != order.rend(); ++r)
-    if (const Ride* ride = ride_of(*r); ride && ride->reaction)
-      moved_mass[ride->parent] += moved_mass[rods[*r].first];
+  for (auto ride = rides.rbegin(); ride != rides.rend(); ++ride)
+    if (ride->reaction) moved_mass[ride->parent] += moved_mass[ride->root];
 }
 
 std::string System::Model::twist_source(std::size_t r) const {
@@ -247,6 +265,82 @@ void System::Model::choose_twist() {
   if (scene.forces.empty()) left_out.emplace_back("loads left out: no force in the scene");
   if (scene.joints.empty()) left_out.emplace_back("joints left out: every rod on its own");
   if (scene.anchors.empty()) left_out.emplace_back("anchors left out: no node is held");
+}
+
+void System::Model::choose_forces() {
+  inverse_mass.assign(nodes, 0.0);
+  inverse_inertia.assign(nodes, 0.0);
+  damped_mass.assign(nodes, 0.0);
+  damped_inertia.assign(nodes, 0.0);
+  std::vector<char> passes_on(nodes, 0);
+  for (const Ride& ride : rides) passes_on[ride.root] = ride.reaction;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (!holds_position(i)) inverse_mass[i] = 1.0 / moved_mass[i];
+    if (has_twist(i) && !holds_frame(i)) inverse_inertia[i] = 1.0 / inertia[i];
+    if (holds_position(i) && !passes_on[i]) driven_positions.push_back(i);
+    if (holds_frame(i) && !passes_on[i]) driven_frames.push_back(i);
+    if (inverse_mass[i] > 0.0) damped_mass[i] = damping[i] * moved_mass[i];
+    if (inverse_inertia[i] > 0.0) damped_inertia[i] = damping[i] * inertia[i];
+    damped = damped || damping[i] > 0.0;
+  }
+  for (const auto& force : scene.forces) {
+    // Gravity accelerates every free node alike, whatever merged with it: no loads need to be summed.
+    const Force& f = *force;
+    if (typeid(f) == typeid(Gravity))
+      gravity += static_cast<const Gravity&>(f).acceleration();
+    else
+      loaded = true;
+  }
+}
+
+void System::Model::lay_out_springs() {
+  begins.assign(nodes, 0);
+  ends.assign(nodes, 0);
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    const NodeRange& rod = rods[r];
+    const std::size_t end = rod.first + rod.count;
+    begins[rod.first] = ends[end - 1] = 1;
+    const bool third =
+        std::any_of(bend_t.begin() + static_cast<std::ptrdiff_t>(rod.first),
+                    bend_t.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0.0; });
+    const Segment own{rod.first, end, has_twist(rod.first), third, scene.rods[r].viscosity > 0.0};
+    const bool alike =
+        !segments.empty() && segments.back().twist == own.twist &&
+        (!own.twist || (segments.back().third == own.third && segments.back().viscous == own.viscous));
+    if (alike)
+      segments.back().end = end;
+    else
+      segments.push_back(own);
+  }
+  for (BendingSide& side : bending.side)
+    for (auto* numbers :
+         {&side.k_l, &side.k_m, &side.k_t, &side.rest_l, &side.rest_m, &side.rest_t, &side.viscosity})
+      numbers->assign(nodes, 0.0);
+  bending.hinge.assign(nodes, 0.0);
+  for (const NodeRange& rod : rods) lay_out_bending(rod);
+}
+
+void System::Model::lay_out_bending(const NodeRange& rod) {
+  for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (k == 0 ? !has_before(i) : !has_after(i)) continue;
+      const std::size_t edge = i + k - 1;
+      const std::size_t end = 2 * edge + 1 - k;
+      BendingSide& side = bending.side[k];
+      side.k_l[i] = bend_l[i];
+      side.k_m[i] = bend_m[i];
+      side.k_t[i] = bend_t[i];
+      side.rest_l[i] = rest_l[end];
+      side.rest_m[i] = rest_m[end];
+      side.rest_t[i] = rest_t[end];
+      side.viscosity[i] = viscosity[edge];
+    }
+    if (has_twist(i)) continue;
+    if (holds_frame(i))
+      bending.held_hinges.push_back(i);
+    else if (has_before(i) && has_after(i))
+      bending.hinge[i] = bend_l[i] + bend_t[i];
+  }
 }
 
 }  // namespace tendril

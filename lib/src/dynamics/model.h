@@ -2,6 +2,7 @@
 
 #include <tendril/dynamics/system.h>
 
+#include <array>
 #include <vector>
 
 namespace tendril {
@@ -22,20 +23,61 @@ struct System::Model {
   std::vector<Vec3> rest_p;
   std::vector<Frame> rest_frame;
   std::vector<double> mass, inertia, bend_l, bend_m, bend_t, damping;
-  std::vector<double> moved_mass;               ///< mass with that of the roots merged into the node
-  std::vector<Vec3> offset;                     ///< (0, r a, r b): q - p in the rest node frame
-  std::vector<int> twist_index;                 ///< place among the twist states, -1 where left out
-  std::vector<int> anchor_index;                ///< into scene.anchors, -1 where there is none
-  std::vector<char> held_position, held_frame;  ///< by an anchor, or by riding on a parent
+  std::vector<double> moved_mass;                   ///< mass with that of the roots merged into the node
+  std::vector<Vec3> offset;                         ///< (0, r a, r b): q - p in the rest node frame
+  std::vector<int> twist_index;                     ///< place among the twist states, -1 where left out
+  std::vector<int> anchor_index;                    ///< into scene.anchors, -1 where there is none
+  std::vector<char> held_position, held_frame;      ///< by an anchor, or by riding on a parent
+  std::vector<char> begins, ends;                   ///< a rod
+  std::vector<double> inverse_mass;                 ///< of what moves with the node; 0 where it is held
+  std::vector<double> inverse_inertia;              ///< 0 where the frame is held, and without twist
+  std::vector<double> damped_mass, damped_inertia;  ///< times the damping; 0 where held
+  /// Held nodes, but for those that pass what they feel to the node they ride on.
+  std::vector<std::size_t> driven_positions, driven_frames;
 
   /// A child's root: where it rides, and its rest frame in its parent's (coordinates of l, m, t).
   struct Ride {
-    std::size_t parent;  ///< flat node
+    std::size_t root, parent;  ///< flat nodes
     Frame rest;
     bool reaction;
   };
   std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
-  std::vector<Ride> rides;
+  std::vector<Ride> rides;      ///< parents before their children
+  /// Per node: the node that its place and frame move with (itself where it rides on none), and whether that
+  /// one feels it.
+  std::vector<std::size_t> carrier;
+  std::vector<char> feels;
+
+  /// Neighbouring rods with the same kind of springs, as one range of nodes [first, end).
+  struct Segment {
+    std::size_t first, end;
+    bool twist;    ///< has the twist state
+    bool third;    ///< has springs on the angle to the tangent
+    bool viscous;  ///< some spring resists
+  };
+  std::vector<Segment> segments;
+
+  /// The bending springs once more, as loops over nodes read them: stiffness 0 where there is no edge.
+  struct BendingSide {
+    std::vector<double> k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
+    struct View {
+      const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
+    };
+    View view() const {
+      return {k_l.data(),    k_m.data(),    k_t.data(),      rest_l.data(),
+              rest_m.data(), rest_t.data(), viscosity.data()};
+    }
+  };
+  struct Bending {
+    std::array<BendingSide, 2> side;       ///< with the edge before the node, with that after it
+    std::vector<double> hinge;             ///< per node of a rod without twist; 0 at ends and held frames
+    std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
+  };
+  Bending bending;
+
+  Vec3 gravity = Vec3::Zero();  ///< of all forces that are nothing else
+  bool loaded = false;          ///< there are forces beside gravity
+  bool damped = false;          ///< some rod has mass damping
 
   // Per edge, and per edge and end (2 i at node i, 2 i + 1 at node i + 1).
   std::vector<double> stretch, twist, width, viscosity, rest_length, rest_twist;
@@ -44,6 +86,8 @@ struct System::Model {
   bool has_twist(std::size_t node) const { return twist_index[node] >= 0; }
   bool holds_position(std::size_t node) const { return held_position[node] != 0; }
   bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
+  bool has_before(std::size_t node) const { return begins[node] == 0; }
+  bool has_after(std::size_t node) const { return ends[node] == 0; }
   const Ride* ride_of(std::size_t rod) const {
     return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }
@@ -62,6 +106,9 @@ struct System::Model {
   void place_joints();
   void sort_rods();
   void choose_twist();
+  void choose_forces();
+  void lay_out_springs();
+  void lay_out_bending(const NodeRange& rod);
   std::string twist_source(std::size_t rod) const;
 };
 

@@ -1,9 +1,9 @@
-#include <tendril/base/error.h>
 #include <tendril/dynamics/rodas.h>
 
 #include <array>
 
-#include "jacobian.h"
+#include "elastic.h"
+#include "stiff_solver.h"
 
 namespace tendril {
 namespace {
@@ -35,63 +35,46 @@ constexpr std::array<std::array<double, 5>, 6> kC{{
 
 struct Rodas::Implementation {
   explicit Implementation(const System& s)
-      : system(s),
-        work(s.make_workspace()),
-        at(s.model()),
-        jacobian(at, s.twist_count() > 0),
-        matrix(at.size(), at.half) {
+      : system(s), work(s.make_workspace()), solver(make_stiff_solver(s, *work)) {
+    const System::Model& model = s.model();
     for (const auto& force : s.scene().forces) works = works || !force->has_energy();
-    for (const Anchor& anchor : s.scene().anchors) works = works || anchor.motion;
-    for (const Rod& rod : s.scene().rods) works = works || rod.mass_damping > 0.0 || rod.viscosity > 0.0;
+    for (const Anchor& anchor : s.scene().anchors) moves = moves || anchor.motion;
+    for (const System::Model::Segment& segment : model.segments) resists = resists || segment.viscous;
+    for (const Joint& joint : s.scene().joints) moves = moves || !joint.reaction;
+    works = works || moves || resists || model.damped;
   }
 
   Evaluation prepare(const State& state) {
     if (known) return {};
-    ++evaluations;
-    if (const Evaluation ok = system.derivative(state, state.time, state.y, rate, *work); !ok.ok()) return ok;
-    const long cost = differentiate(system, at, state, rate, *work, jacobian);
+    if (!arrived(state)) {
+      ++evaluations;
+      if (const Evaluation ok = system.derivative(state, state.time, state.y, rate, *work); !ok.ok())
+        return ok;
+    }
+    const long cost = solver->differentiate(state, rate);
     if (cost < 0) return {Evaluation::Outcome::not_finite, 0};
     evaluations += cost;
     known = true;
     return {};
   }
 
-  /// (s - a_u)(s - c_x) - a_x, factored.
-  bool factor(double s) {
-    matrix.data() = -jacobian.a_by_x.data() - s * jacobian.a_by_u.data();
-    if (jacobian.connected) {
-      matrix.data() -= s * jacobian.c_by_x.data();
-      add_product();
-    }
-    for (Eigen::Index k = 0; k < at.size(); ++k) matrix.at(k, k) += s * s;
-    return matrix.factor();
-  }
-
-  /// a_u c_x, as far as it lies in the band.
-  void add_product() {
-    const Eigen::Index half = matrix.half();
-    for (Eigen::Index row = 0; row < at.size(); ++row)
-      for (Eigen::Index k = std::max<Eigen::Index>(0, row - half); k <= std::min(at.size() - 1, row + half);
-           ++k) {
-        const double a = jacobian.a_by_u.at(row, k);
-        if (a == 0.0) continue;
-        for (Eigen::Index column = std::max<Eigen::Index>(0, k - half);
-             column <= std::min(at.size() - 1, k + half); ++column)
-          if (matrix.inside(row, column)) matrix.at(row, column) += a * jacobian.c_by_x.at(k, column);
-      }
-  }
-
-  /// Solves (s - J) U = r for U, both laid out like y.
-  void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) {
-    const Eigen::VectorXd rx = r(at.x);
-    Eigen::VectorXd b = r(at.u) + s * rx;
-    jacobian.a_by_u.multiply_add(-1.0, rx, b);
-    matrix.solve(b);
-    Eigen::VectorXd u = s * b - rx;
-    if (jacobian.connected) jacobian.c_by_x.multiply_add(-1.0, b, u);
-    result.setZero(r.size());
-    result(at.x) = b;
-    result(at.u) = u;
+  /// Takes over the derivative at the last step's end where the state is that end, rebased: only the angles
+  /// are counted from a new reference.
+  bool arrived(const State& state) {
+    const System::Model& model = system.model();
+    if (end.size() == 0 || state.time != end_time) return false;
+    const Eigen::Index places = model.theta_begin();
+    const Eigen::Index rest = model.spin_begin();
+    if (state.y.head(places) != end_y.head(places)) return false;
+    const auto m = static_cast<Eigen::Index>(model.twist_nodes);
+    if (state.y.segment(rest, m) != end_y.segment(rest, m)) return false;
+    rate.swap(end);
+    end.resize(0);
+    for (std::size_t i = 0; i < model.nodes; ++i)
+      if (model.has_twist(i))
+        rate[model.theta_begin() + model.twist_index[i]] =
+            model.holds_frame(i) ? 0.0 : state.y[model.spin_begin() + model.twist_index[i]];
+    return true;
   }
 
   Evaluation stages(const State& state, double h, Eigen::VectorXd& y) {
@@ -105,9 +88,9 @@ struct Rodas::Implementation {
         if (!ok.ok()) return ok;
       }
       for (std::size_t j = 0; j < i; ++j) r.noalias() += (kC[i][j] / h) * stage[j];
-      if (jacobian.by_time.size() > 0 && kTimeSlope[i] != 0.0)
-        r.noalias() += (h * kTimeSlope[i]) * jacobian.by_time;
-      solve(1.0 / (h * kGamma), r, stage[i]);
+      if (solver->by_time().size() > 0 && kTimeSlope[i] != 0.0)
+        r.noalias() += (h * kTimeSlope[i]) * solver->by_time();
+      solver->solve(1.0 / (h * kGamma), r, stage[i]);
     }
     y += stage[5];
     return {};
@@ -115,43 +98,53 @@ struct Rodas::Implementation {
 
   /// Work done over the step, by Simpson's rule with the cubic through both ends' positions and velocities.
   Evaluation add_work(const State& state, double h, Eigen::VectorXd& y) {
-    const Eigen::Index last = y.size() - 1;
     if (!works) return {};
-    Eigen::VectorXd middle = 0.5 * (state.y + y);
-    middle(at.x) += h / 8 * (state.y(at.u) - y(at.u));
-    middle(at.u) = 1.5 / h * (y(at.x) - state.y(at.x)) - 0.25 * (state.y(at.u) + y(at.u));
-    Eigen::VectorXd half_way;
-    Eigen::VectorXd end;
+    const System::Model& model = system.model();
+    const Eigen::Index last = y.size() - 1;
+    const auto n = model.v_begin();
+    const auto m = static_cast<Eigen::Index>(model.twist_nodes);
+    middle = 0.5 * (state.y + y);
+    const auto bend = [&](Eigen::Index x, Eigen::Index u, Eigen::Index count) {
+      middle.segment(x, count) += h / 8 * (state.y.segment(u, count) - y.segment(u, count));
+      middle.segment(u, count) = 1.5 / h * (y.segment(x, count) - state.y.segment(x, count)) -
+                                 0.25 * (state.y.segment(u, count) + y.segment(u, count));
+    };
+    bend(0, n, n);
+    if (m > 0) bend(model.theta_begin(), model.spin_begin(), m);
     evaluations += 2;
-    if (const Evaluation ok = system.derivative(state, state.time + h / 2, middle, half_way, *work); !ok.ok())
+    // Springs that only store energy do no work; they are left out where nothing else asks for their forces.
+    if (const Evaluation ok =
+            rates(model, state, state.time + h / 2, middle, moves || resists, half_way, *work);
+        !ok.ok())
       return ok;
     if (const Evaluation ok = system.derivative(state, state.time + h, y, end, *work); !ok.ok()) return ok;
     y[last] = state.y[last] + h / 6 * (rate[last] + 4 * half_way[last] + end[last]);
+    end_time = state.time + h;
+    end_y = y;
     return {};
   }
 
   const System& system;
   System::WorkspacePtr work;
-  ChainCoordinates at;
-  ChainJacobian jacobian;
-  BandMatrix matrix;
+  std::unique_ptr<StiffSolver> solver;
   Eigen::VectorXd rate;
   std::array<Eigen::VectorXd, 6> stage;
-  bool works = false;  ///< whether anything but springs and energies acts
-  bool known = false;  ///< rate and jacobian belong to the present state
+  Eigen::VectorXd middle, half_way;
+  Eigen::VectorXd end, end_y;  ///< derivative at the end of the last step tried; empty when there is none
+  double end_time = 0.0;
+  bool works = false;    ///< whether anything but springs and energies acts
+  bool moves = false;    ///< what is held may do work on the springs
+  bool resists = false;  ///< springs turn work into heat
+  bool known = false;    ///< rate and Jacobian belong to the present state
   long evaluations = 0;
 };
 
-Rodas::Rodas(const System& system) {
-  if (!system.scene().joints.empty())
-    throw InvalidInput("joints", "the scene has some", "rods on their own for RODAS");
-  self_ = std::make_unique<Implementation>(system);
-}
+Rodas::Rodas(const System& system) : self_(std::make_unique<Implementation>(system)) {}
 Rodas::~Rodas() = default;
 
 Evaluation Rodas::step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) {
   if (const Evaluation ok = self_->prepare(state); !ok.ok()) return ok;
-  if (!self_->factor(1.0 / (h * kGamma))) return {Evaluation::Outcome::not_converged, 0};
+  if (!self_->solver->factor(1.0 / (h * kGamma))) return {Evaluation::Outcome::not_converged, 0};
   if (const Evaluation ok = self_->stages(state, h, y); !ok.ok()) return ok;
   if (const Evaluation ok = self_->add_work(state, h, y); !ok.ok()) return ok;
   error = self_->stage[5];

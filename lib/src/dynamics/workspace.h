@@ -1,10 +1,12 @@
 #pragma once
 
+#include "columns.h"
 #include "model.h"
 
 namespace tendril {
 
-/// Scratch arrays of one evaluation, one entry per node (edges by their first node).
+/// Scratch columns of one evaluation, one entry per node (edges by their first node). The edge entry of a
+/// rod's last node belongs to no edge: it is kept at 0, so that loops need not know where rods end.
 class System::Workspace {
  public:
   explicit Workspace(const Model& model);
@@ -12,16 +14,32 @@ class System::Workspace {
   std::vector<AnchorPose> pose;  ///< per anchor
 
   // Kinematics: positions, edges, frames, and their rates.
-  std::vector<Vec3> p, v, e, e_rate, t_rate;
-  std::vector<Frame> frame;
-  std::vector<double> length, length_rate, bisector, spin, connection;
+  Columns3 p, v, e, e_rate, t_rate;
+  FrameColumns frame;
+  Column length, inverse_length, length_rate;
+  Column inverse_bisector;  ///< of the unit edges' sum; 0 where the frame is held
+  Column spin, connection;
 
-  // Gradients of the energy (with the viscous part where asked for).
-  std::vector<Vec3> g_edge, g_tangent;
-  std::vector<double> g_length, g_spin;
+  // Gradients of the energy (with the viscous part where asked for): by the unit edges, as the springs at
+  // their two nodes give it and as the tangents pass it on, by the tangents and by the spins.
+  Columns3 g_before, g_after;  ///< by the edge before and after a node, from the springs at the node
+  Columns3 g_bisector;         ///< by each of the two edges, through the node's tangent
+  Columns3 g_tangent;
+  Column g_spin, g_length;
+  Columns3 twist_tangent;  ///< per edge: what its twist spring gives either tangent
+  Column twist_torque;     ///< per edge
+  Column energy, heat;     ///< per edge or node, of one kind of springs at a time
 
-  std::vector<Vec3> force, torque;
-  std::vector<Vec3> tangent;  ///< of the frames, for the forces' view
+  Columns3 edge_force, force;
+
+  // What forces other than gravity see and give; empty without them.
+  std::vector<Vec3> seen_p, seen_v, seen_t, load, torque;
+  std::vector<double> seen_spin;
+
+  /// Gradient by the unit edge i.
+  Vec3 g_edge(std::size_t i) const {
+    return g_after[i] + g_before[i + 1] + g_bisector[i] + g_bisector[i + 1];
+  }
 };
 
 }  // namespace tendril

@@ -16,6 +16,7 @@ class Gravity : public Force {
   bool depends_on_time() const override { return false; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
+  const Vec3& acceleration() const { return g_; }
 
  private:
   Vec3 g_;

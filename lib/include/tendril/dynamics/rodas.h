@@ -8,18 +8,19 @@ namespace tendril {
 /// Rosenbrock method of order 4 with an embedded one of order 3, six stages, L-stable and stiffly accurate.
 /// No iteration: one matrix a step,
 ///
-///   (s - a_u)(s - c_x) - a_x,   s = 1 / (h gamma),
+///   s^2 M - s F_u - F_x - s M C + F_u C,   s = 1 / (h gamma),
 ///
-/// the second-order form for the positions and angles alone (4 unknowns a node, 3 without twist), banded on
-/// chains. Springs and their viscous parts enter with exact derivatives; the rest by differences. What is
-/// left out (how the directions of the viscous forces change) lowers the order of fast, strongly viscous
-/// motions.
+/// with x' = u + c(x), M u' = F, C and F_x, F_u their derivatives: the second-order form for the positions
+/// and angles alone, three unknowns a node or four with twist, eliminated from tips to roots and children to
+/// parents without fill. Springs and their viscous parts enter with exact derivatives; what is left by
+/// differences. How the directions of the viscous forces change is left out: that lowers the order of fast,
+/// strongly viscous motions.
 ///
 /// It damps oscillations it does not resolve, so energy is lost to it where Cash-Karp would need its guard.
-/// Cost a step: O(nodes). Not for systems with joints.
+/// Time and memory of a step: O(nodes), on trees too.
 class Rodas : public EmbeddedStepper {
  public:
-  /// Throws InvalidInput for a system with joints. \param system  kept by reference
+  /// \param system  kept by reference
   explicit Rodas(const System& system);
   ~Rodas() override;
 

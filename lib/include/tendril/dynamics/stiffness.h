@@ -8,8 +8,9 @@ namespace tendril {
 
 /// Exact Hessian of the elastic energy at a state that is its own reference (as after System::rebase):
 /// symmetric, in the coordinates and order of System::elastic_gradient (3n positions, then m angles). Rows of
-/// held coordinates are not removed. A node couples with its third neighbour; O(n) time and entries. Throws
-/// InvalidInput for a system with joints.
+/// held coordinates are not removed; those of a child's root are empty, what they would hold stands with the
+/// node it rides on. Through a one-way joint the parent feels nothing: then it is the derivative of minus the
+/// elastic forces, and not symmetric. A node couples with its third neighbour; O(n) time and entries.
 Evaluation elastic_stiffness(const System& system, const State& state, Eigen::SparseMatrix<double>& stiffness,
                              System::Workspace& work);
 

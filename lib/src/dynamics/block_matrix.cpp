@@ -1,0 +1,284 @@
+#include "block_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lanes.h"
+
+namespace tendril {
+namespace {
+
+/// Four numbers in a register; at any address.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+TENDRIL_INLINE const Four& four(const std::array<double, 4>& a) {
+  return *reinterpret_cast<const Four*>(a.data());
+}
+TENDRIL_INLINE Four& four(std::array<double, 4>& a) {
+  return *reinterpret_cast<Four*>(a.data());
+}
+
+template <int B>
+using Block = typename BlockMatrix<B>::Block;
+
+/// to -= a b
+template <int B>
+TENDRIL_INLINE void subtract_product(const Block<B>& a, const Block<B>& b, Block<B>& to) {
+  for (std::size_t c = 0; c < B; ++c) {
+    Four sum = four(a.column[0]) * b.column[c][0];
+    for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * b.column[c][k];
+    four(to.column[c]) -= sum;
+  }
+}
+
+template <int B>
+TENDRIL_INLINE void product(const Block<B>& a, const Block<B>& b, Block<B>& to) {
+  for (std::size_t c = 0; c < B; ++c) {
+    Four sum = four(a.column[0]) * b.column[c][0];
+    for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * b.column[c][k];
+    four(to.column[c]) = sum;
+  }
+}
+
+template <int B>
+TENDRIL_INLINE void transpose(const Block<B>& a, Block<B>& to) {
+  for (std::size_t c = 0; c < B; ++c)
+    for (std::size_t r = 0; r < B; ++r) to.column[c][r] = a.column[r][c];
+}
+
+/// By Gauss and Jordan without pivoting: the blocks are close to s^2 times a mass, or stiff and definite.
+template <int B>
+TENDRIL_INLINE bool invert(Block<B>& a) {
+  for (std::size_t k = 0; k < B; ++k) {
+    double largest = 0.0;
+    for (std::size_t c = 0; c < B; ++c) largest = std::max(largest, std::fabs(a.column[c][k]));
+    const double pivot = a.column[k][k];
+    if (!(std::fabs(pivot) > 1e-12 * largest) || !(std::fabs(pivot) < 1e300)) return false;
+    const double inverse = 1.0 / pivot;
+    std::array<double, 4> ratio = a.column[k];
+    ratio[k] = 0.0;
+    a.column[k] = {};
+    a.column[k][k] = 1.0;
+    for (std::size_t c = 0; c < B; ++c) {
+      const double top = a.column[c][k] * inverse;
+      a.column[c][k] = top;
+      four(a.column[c]) -= four(ratio) * top;
+    }
+  }
+  return true;
+}
+
+template <int B>
+struct Parts {
+  Block<B>* diagonal;
+  Block<B>* upper;
+  Block<B>* lower;
+};
+
+template <int B, bool Symmetric>
+TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m) {
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    if (!invert<B>(m.diagonal[k])) return false;
+    const Block<B>& inverse = m.diagonal[k];
+    const std::size_t begin = pattern.begin(k);
+    const std::size_t end = pattern.begin(k + 1);
+    const std::size_t* pair = pattern.pairs(k);
+    Block<B> row[16];
+    const std::size_t count = end - begin;
+    if (count > 16) return false;
+    for (std::size_t a = 0; a < count; ++a) {
+      // What is left of the pivot: U^T in the symmetric case, L otherwise, still without the inverse.
+      if constexpr (Symmetric)
+        transpose<B>(m.upper[begin + a], row[a]);
+      else
+        row[a] = m.lower[begin + a];
+      Block<B> scaled;
+      product<B>(inverse, m.upper[begin + a], scaled);
+      m.upper[begin + a] = scaled;
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+      subtract_product<B>(row[a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
+      for (std::size_t b = a + 1; b < count; ++b, ++pair) {
+        subtract_product<B>(row[a], m.upper[begin + b], m.upper[*pair]);
+        if constexpr (!Symmetric) subtract_product<B>(row[b], m.upper[begin + a], m.lower[*pair]);
+      }
+      if constexpr (!Symmetric) product<B>(row[a], inverse, m.lower[begin + a]);
+    }
+  }
+  return true;
+}
+
+/// sum = a x
+template <int B>
+TENDRIL_INLINE void apply(const Block<B>& a, const double* x, Four& sum) {
+  sum = four(a.column[0]) * x[0];
+  for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * x[k];
+}
+
+template <int B>
+TENDRIL_INLINE void subtract(const Block<B>& a, const double* x, Four& from) {
+  Four sum;
+  apply<B>(a, x, sum);
+  from -= sum;
+}
+
+/// The first B of a^T x.
+template <int B>
+TENDRIL_INLINE void subtract_transposed(const Block<B>& a, const double* x, double* to) {
+  for (std::size_t c = 0; c < B; ++c) {
+    double sum = a.column[c][0] * x[0];
+    for (std::size_t k = 1; k < B; ++k) sum += a.column[c][k] * x[k];
+    to[c] -= sum;
+  }
+}
+
+TENDRIL_INLINE Four& at(double* x) {
+  return *reinterpret_cast<Four*>(x);
+}
+
+template <int B, bool Symmetric>
+TENDRIL_INLINE void solve_blocks(const BlockPattern& pattern, const Block<B>* diagonal, const Block<B>* upper,
+                                 const Block<B>* lower, double* b) {
+  const std::size_t n = pattern.size();
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+      double* to = b + 4 * pattern.later(e);
+      if constexpr (Symmetric)
+        subtract_transposed<B>(upper[e], b + 4 * k, to);
+      else
+        subtract<B>(lower[e], b + 4 * k, at(to));
+    }
+  for (std::size_t k = n; k-- > 0;) {
+    Four x;
+    apply<B>(diagonal[k], b + 4 * k, x);
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
+      subtract<B>(upper[e], b + 4 * pattern.later(e), x);
+    at(b + 4 * k) = x;
+  }
+}
+
+TENDRIL_LANES bool factor_symmetric(const BlockPattern& p, const Parts<3>& m) {
+  return factor_blocks<3, true>(p, m);
+}
+TENDRIL_LANES bool factor_three(const BlockPattern& p, const Parts<3>& m) {
+  return factor_blocks<3, false>(p, m);
+}
+TENDRIL_LANES bool factor_four(const BlockPattern& p, const Parts<4>& m) {
+  return factor_blocks<4, false>(p, m);
+}
+TENDRIL_LANES void solve_symmetric(const BlockPattern& p, const Block<3>* d, const Block<3>* u, double* b) {
+  solve_blocks<3, true>(p, d, u, nullptr, b);
+}
+TENDRIL_LANES void solve_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u, const Block<3>* l,
+                               double* b) {
+  solve_blocks<3, false>(p, d, u, l, b);
+}
+TENDRIL_LANES void solve_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u, const Block<4>* l,
+                              double* b) {
+  solve_blocks<4, false>(p, d, u, l, b);
+}
+
+template <int B>
+void negate(const std::vector<Block<B>>& a, double s, const std::vector<Block<B>>* b,
+            std::vector<Block<B>>& to) {
+  for (std::size_t i = 0; i < to.size(); ++i)
+    for (std::size_t c = 0; c < B; ++c) {
+      four(to[i].column[c]) = -four(a[i].column[c]);
+      if (b) four(to[i].column[c]) -= s * four((*b)[i].column[c]);
+    }
+}
+
+}  // namespace
+
+template <int B>
+void BlockMatrix<B>::set_zero() {
+  for (auto* blocks : {&diagonal_, &upper_, &lower_}) std::fill(blocks->begin(), blocks->end(), Block{});
+}
+
+template <int B>
+typename BlockMatrix<B>::Block* BlockMatrix<B>::find(std::size_t row_node, std::size_t column_node) {
+  const std::size_t row = pattern_->pivot(row_node);
+  const std::size_t column = pattern_->pivot(column_node);
+  if (row == column) return &diagonal_[row];
+  if (row > column && symmetric_) return nullptr;
+  const std::size_t e = pattern_->entry(std::min(row, column), std::max(row, column));
+  if (e == pattern_->entries()) return nullptr;
+  return row < column ? &upper_[e] : &lower_[e];
+}
+
+template <int B>
+void BlockMatrix<B>::column(std::size_t row, std::size_t node, const Vec3& k) {
+  if (Block* to = find(row, node); to && B == 4)
+    for (std::size_t r = 0; r < 3; ++r) to->column[3 % B][r] += k[static_cast<Eigen::Index>(r)];
+}
+
+template <int B>
+void BlockMatrix<B>::row(std::size_t node, std::size_t column, const Vec3& k) {
+  if (Block* to = find(node, column); to && B == 4)
+    for (std::size_t c = 0; c < 3; ++c) to->column[c][3] += k[static_cast<Eigen::Index>(c)];
+}
+
+template <int B>
+void BlockMatrix<B>::set_negative(const BlockMatrix& a, double s, const BlockMatrix* b) {
+  negate<B>(a.diagonal_, s, b ? &b->diagonal_ : nullptr, diagonal_);
+  negate<B>(a.upper_, s, b ? &b->upper_ : nullptr, upper_);
+  negate<B>(a.lower_, s, b ? &b->lower_ : nullptr, lower_);
+}
+
+template <int B>
+void BlockMatrix<B>::release(std::size_t node, std::size_t coordinate) {
+  const std::size_t own = pattern_->pivot(node);
+  const auto clear_row = [&](Block& b) {
+    for (auto& column : b.column) column[coordinate] = 0.0;
+  };
+  const auto clear_column = [&](Block& b) { b.column[coordinate] = {}; };
+  clear_row(diagonal_[own]);
+  clear_column(diagonal_[own]);
+  for (std::size_t e = pattern_->begin(own); e < pattern_->begin(own + 1); ++e) {
+    clear_row(upper_[e]);
+    if (!symmetric_) clear_column(lower_[e]);
+  }
+  for (const std::size_t e : pattern_->earlier(own)) {
+    clear_column(upper_[e]);
+    if (!symmetric_) clear_row(lower_[e]);
+  }
+}
+
+template <int B>
+bool BlockMatrix<B>::factor() {
+  const Parts<B> parts{diagonal_.data(), upper_.data(), lower_.data()};
+  if constexpr (B == 4) return factor_four(*pattern_, parts);
+  if constexpr (B == 3)
+    return symmetric_ ? factor_symmetric(*pattern_, parts) : factor_three(*pattern_, parts);
+}
+
+template <int B>
+void BlockMatrix<B>::solve(double* b) const {
+  if constexpr (B == 4)
+    solve_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+  else if (symmetric_)
+    solve_symmetric(*pattern_, diagonal_.data(), upper_.data(), b);
+  else
+    solve_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+}
+
+template <int B>
+void BlockMatrix<B>::multiply_add(double s, const double* x, double* y) const {
+  for (std::size_t k = 0; k < pattern_->size(); ++k) {
+    Four sum;
+    apply<B>(diagonal_[k], x + 4 * k, sum);
+    at(y + 4 * k) += s * sum;
+    for (std::size_t e = pattern_->begin(k); e < pattern_->begin(k + 1); ++e) {
+      const std::size_t other = 4 * pattern_->later(e);
+      apply<B>(upper_[e], x + other, sum);
+      at(y + 4 * k) += s * sum;
+      apply<B>(lower_[e], x + 4 * k, sum);
+      at(y + other) += s * sum;
+    }
+  }
+}
+
+template class BlockMatrix<3>;
+template class BlockMatrix<4>;
+
+}  // namespace tendril

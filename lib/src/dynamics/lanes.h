@@ -1,0 +1,151 @@
+#pragma once
+
+#include <cmath>
+
+/// Loops of this module that a compiler turns into vector code: marked with TENDRIL_LANES they are compiled
+/// for several vector units, and the widest one that the machine has is taken when the program starts. Every
+/// operation is elementwise and none is contracted, so the bits do not depend on which.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TENDRIL_LANES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
+#else
+#define TENDRIL_LANES
+#endif
+#define TENDRIL_INLINE inline __attribute__((always_inline))
+
+#if defined(__clang__)
+#define TENDRIL_LOOP _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define TENDRIL_LOOP _Pragma("GCC ivdep")
+#endif
+
+namespace tendril::lanes {
+
+/// Three numbers in registers. Eigen's vectors would keep loops from being vectorised.
+struct V3 {
+  double x, y, z;
+};
+
+TENDRIL_INLINE V3 operator+(const V3& a, const V3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+TENDRIL_INLINE V3 operator-(const V3& a, const V3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+TENDRIL_INLINE V3 operator*(double s, const V3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+TENDRIL_INLINE double dot(const V3& a, const V3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+TENDRIL_INLINE V3 cross(const V3& a, const V3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+TENDRIL_INLINE double larger(double a, double b) {
+  return a > b ? a : b;
+}
+TENDRIL_INLINE double smaller(double a, double b) {
+  return a < b ? a : b;
+}
+
+/// Nearest whole number, for |x| < 2^51 and rounding to nearest.
+TENDRIL_INLINE double nearest_whole(double x) {
+  constexpr double kBig = 0x1.8p52;
+  return (x + kBig) - kBig;
+}
+
+/// (atan(t) - t) / t for z = t^2 up to (sqrt 2 - 1)^2: Chebyshev fit, error 6e-18.
+TENDRIL_INLINE double atan_series(double z) {
+  double p = -1.91754047111049354e-02;
+  p = p * z + 3.92304477847930932e-02;
+  p = p * z - 5.08540783458948445e-02;
+  p = p * z + 5.85814090486632827e-02;
+  p = p * z - 6.66451052550893625e-02;
+  p = p * z + 7.69218312537689186e-02;
+  p = p * z - 9.09090457530648960e-02;
+  p = p * z + 1.11111110151870182e-01;
+  p = p * z - 1.42857142846656821e-01;
+  p = p * z + 1.99999999999955158e-01;
+  p = p * z - 3.33333333333333315e-01;
+  return p * z;
+}
+
+struct Ratio {
+  double up, down, offset;  ///< atan(small / large) = offset + atan(up / down), |up / down| <= tan(pi / 8)
+};
+
+/// \param large  > 0
+TENDRIL_INLINE Ratio reduce(double small, double large) {
+  const bool far = small > 0.41421356237309503 * large;
+  return {far ? small - large : small, far ? small + large : large, far ? 0.78539816339744831 : 0.0};
+}
+
+/// atan2 to about an ulp, without branches; atan2(0, 0) = 0.
+TENDRIL_INLINE double angle(double y, double x) {
+  const double ay = std::fabs(y);
+  const double ax = std::fabs(x);
+  const double large = larger(ax, ay);
+  const Ratio r = reduce(smaller(ax, ay), large > 0.0 ? large : 1.0);
+  const double t = r.up / r.down;
+  double a = r.offset + (t + t * atan_series(t * t));
+  a = ay > ax ? 1.57079632679489656 - a : a;
+  a = x < 0.0 ? 3.14159265358979312 - a : a;
+  return std::copysign(a, y);
+}
+
+/// asin of x, |x| <= 1, from x and the cosine, and 1 / cosine with the same division. A cosine of 0 is taken
+/// for 1: there the spring has no gradient to give.
+struct Deviation {
+  double angle, inverse_cosine;
+};
+TENDRIL_INLINE Deviation deviation(double x, double cosine) {
+  const double c = cosine > 0.0 ? cosine : 1.0;
+  const double ax = std::fabs(x);
+  const Ratio r = reduce(smaller(ax, c), larger(ax, c));
+  const double q = 1.0 / (c * r.down);
+  const double t = r.up * (q * c);
+  double a = r.offset + (t + t * atan_series(t * t));
+  a = ax > c ? 1.57079632679489656 - a : a;
+  return {std::copysign(a, x), q * r.down};
+}
+
+struct SineCosine {
+  double sine, cosine;
+};
+/// To about an ulp for |x| up to some thousands.
+TENDRIL_INLINE SineCosine sine_cosine(double x) {
+  const double n = nearest_whole(x * 0.63661977236758138);
+  const double r = ((x - n * 1.57079632673412561417e+00) - n * 6.07710050650619224932e-11);
+  const double z = r * r;
+  double s = -7.58669109419795817e-13;
+  s = s * z + 1.60585315167977585e-10;
+  s = s * z - 2.50521062318028370e-08;
+  s = s * z + 2.75573192193373122e-06;
+  s = s * z - 1.98412698412650626e-04;
+  s = s * z + 8.33333333333333148e-03;
+  s = s * z - 1.66666666666666657e-01;
+  const double sine = r + r * (s * z);
+  double c = 4.74586855302733013e-14;
+  c = c * z - 1.14704608307942149e-11;
+  c = c * z + 2.08767557907219548e-09;
+  c = c * z - 2.75573192214017919e-07;
+  c = c * z + 2.48015873015846453e-05;
+  c = c * z - 1.38888888888888873e-03;
+  c = c * z + 4.16666666666666644e-02;
+  const double cosine = 1.0 - (0.5 * z - (z * z) * c);
+  // n modulo 4, in (-2 .. 2): odd ones swap, 2 (and -2) turn both signs.
+  const double quarter = n - 4.0 * nearest_whole(0.25 * n);
+  const bool odd = quarter == 1.0 || quarter == -1.0;
+  const double s1 = odd ? cosine : sine;
+  const double c1 = odd ? sine : cosine;
+  const bool half = quarter == 2.0 || quarter == -2.0;
+  return {half || quarter == -1.0 ? -s1 : s1, half || quarter == 1.0 ? -c1 : c1};
+}
+
+/// d less the nearest multiple of 2 pi.
+TENDRIL_INLINE double less_turns(double d) {
+  const double n = nearest_whole(d * 0.15915494309189535);
+  return (d - n * 6.28318530693650245668e+00) - n * 2.43084020260247690e-10;
+}
+
+}  // namespace tendril::lanes

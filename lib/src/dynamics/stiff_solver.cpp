@@ -1,0 +1,315 @@
+#include "stiff_solver.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "differences.h"
+#include "elastic.h"
+#include "stiffness_elements.h"
+
+namespace tendril {
+namespace {
+
+using Model = System::Model;
+
+std::vector<std::size_t> tips_to_roots(const Model& model) {
+  std::vector<std::size_t> order;
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r)
+    for (std::size_t i = model.rods[*r].count; i-- > 0;) order.push_back(model.rods[*r].first + i);
+  return order;
+}
+
+/// Nodes that see each other: with twist up to the third neighbour, without (a hinge) up to the second; the
+/// first edge of a child sees its parent's frame.
+std::vector<std::pair<std::size_t, std::size_t>> couplings(const Model& model) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const NodeRange& rod : model.rods) {
+    const std::size_t reach = model.has_twist(rod.first) ? 3 : 2;
+    for (std::size_t i = rod.first; i < rod.first + rod.count; ++i)
+      for (std::size_t j = i + 1; j <= std::min(i + reach, rod.first + rod.count - 1); ++j)
+        pairs.emplace_back(model.carrier[i], model.carrier[j]);
+    const std::size_t parent = model.carrier[rod.first];
+    if (parent == rod.first) continue;
+    for (std::size_t j = parent - (model.has_before(parent) ? 1 : 0);
+         j <= parent + (model.has_after(parent) ? 1 : 0); ++j)
+      for (std::size_t i = rod.first + 1; i <= std::min(rod.first + 2, rod.first + rod.count - 1); ++i)
+        pairs.emplace_back(model.carrier[j], i);
+  }
+  return pairs;
+}
+
+bool depends_on_state(const Model& model) {
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_state()) return true;
+  return false;
+}
+
+bool depends_on_time(const Model& model) {
+  for (const Anchor& anchor : model.scene.anchors)
+    if (anchor.motion) return true;
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_time()) return true;
+  return false;
+}
+
+bool resists(const Model& model) {
+  for (const Model::Segment& s : model.segments)
+    if (s.viscous) return true;
+  return false;
+}
+
+/// What the connection term of a node is derived by: theta' = w + by . (p_{i-1}, p_i, p_{i+1}).
+struct Connection {
+  std::size_t node;
+  std::array<std::size_t, 3> from;  ///< carriers; EdgeStiffness::kNone for what is not there
+  std::array<Vec3, 3> by;
+};
+
+template <int B>
+class BlockSolver : public StiffSolver {
+ public:
+  BlockSolver(const System& system, System::Workspace& work)
+      : system_(system),
+        model_(system.model()),
+        work_(work),
+        loaded_(model_.loaded && depends_on_state(model_)),
+        rates_matter_(B == 4 || loaded_),
+        timed_(depends_on_time(model_)),
+        pattern_(tips_to_roots(model_), couplings(model_)),
+        by_x_(pattern_, !rates_matter_),
+        matrix_(pattern_, !rates_matter_),
+        b_(4 * pattern_.size()),
+        x_(4 * pattern_.size()) {
+    if (rates_matter_) by_u_.emplace(pattern_, false);
+    if (rates_matter_) differences_.emplace(model_, pattern_, loaded_);
+    lay_out();
+  }
+
+  long differentiate(const State& state, const Eigen::VectorXd& rate) override {
+    by_x_.set_zero();
+    if (by_u_) by_u_->set_zero();
+    double energy = 0.0;
+    if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
+    visit_stiffness(model_, state, work_, -1.0, by_x_);
+    long evaluations = 1;
+    if constexpr (B == 4) {
+      if (resists(model_)) visit_resistance(model_, work_, *by_u_);
+      // The rates of the frames are needed from here on.
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
+      add_carrying();
+      connect();
+      if (!loaded_) add_gyroscopic();
+    }
+    if (differences_) {
+      const long cost = differences_->add(state, work_, by_x_, *by_u_);
+      if (cost < 0) return -1;
+      evaluations += cost;
+    }
+    for (const Held& held : held_) {
+      by_x_.release(held.node, held.coordinate);
+      if (by_u_) by_u_->release(held.node, held.coordinate);
+    }
+    if (timed_ && !take_time(state, rate)) return -1;
+    return evaluations + (timed_ ? 1 : 0);
+  }
+
+  bool factor(double s) override {
+    matrix_.set_negative(by_x_, s, by_u_ ? &*by_u_ : nullptr);
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      auto* diagonal = matrix_.find(pattern_.node(k), pattern_.node(k));
+      for (std::size_t c = 0; c < B; ++c)
+        diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
+    }
+    for (const Connection& c : connections_) add_connection(s, c);
+    for (const Held& held : held_) {
+      if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
+      matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
+    }
+    return matrix_.factor();
+  }
+
+  void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) override {
+    for (std::size_t k = 0; k < b_.size(); ++k) {
+      const double rx = place_x_[k] < 0 ? 0.0 : r[place_x_[k]];
+      const double ru = place_x_[k] < 0 ? 0.0 : r[place_u_[k]];
+      x_[k] = rx;
+      b_[k] = mass_[k] * (ru + s * rx) + damping_[k] * rx;
+    }
+    if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
+    for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
+    matrix_.solve(b_.data());
+    result.setZero(r.size());
+    for (std::size_t k = 0; k < b_.size(); ++k) {
+      if (place_x_[k] < 0) continue;
+      result[place_x_[k]] = b_[k];
+      result[place_u_[k]] = s * b_[k] - x_[k];
+    }
+    for (const Connection& c : connections_) result[place_u_[4 * pattern_.pivot(c.node) + 3]] -= turned_by(c);
+  }
+
+ private:
+  struct Held {
+    std::size_t node, coordinate;
+  };
+
+  /// Places in y of the free coordinates, their masses, and the held ones.
+  void lay_out() {
+    place_x_.assign(b_.size(), -1);
+    place_u_.assign(b_.size(), -1);
+    mass_.assign(b_.size(), 0.0);
+    damping_.assign(b_.size(), 0.0);
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const std::size_t i = pattern_.node(k);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto at = static_cast<Eigen::Index>(3 * i + c);
+        set(k, c, !model_.holds_position(i), at, model_.v_begin() + at, model_.moved_mass[i]);
+      }
+      if (B == 4)
+        set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.theta_begin() + model_.twist_index[i],
+            model_.spin_begin() + model_.twist_index[i], model_.inertia[i]);
+    }
+  }
+  void set(std::size_t k, std::size_t c, bool free, Eigen::Index x, Eigen::Index u, double mass) {
+    if (!free) {
+      held_.push_back({pattern_.node(k), c});
+      return;
+    }
+    place_x_[4 * k + c] = x;
+    place_u_[4 * k + c] = u;
+    mass_[4 * k + c] = mass;
+    // The differences see the damping; without them it stands by itself.
+    if (!loaded_) damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
+  }
+
+  bool take_time(const State& state, const Eigen::VectorXd& rate) {
+    const double step = 1e-7 * std::max(1e-3, std::abs(state.time));
+    if (!system_.derivative(state, state.time + step, state.y, by_time_, work_).ok()) return false;
+    by_time_ = (by_time_ - rate) / step;
+    return true;
+  }
+
+  /// Nodes before, at and after i, by what carries them.
+  std::array<std::size_t, 3> around(std::size_t i) const {
+    return {model_.has_before(i) ? model_.carrier[i - 1] : EdgeStiffness::kNone, model_.carrier[i],
+            model_.has_after(i) ? model_.carrier[i + 1] : EdgeStiffness::kNone};
+  }
+
+  /// Whether what carries the node before, at or after i feels it.
+  bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
+
+  template <class Add>
+  void for_pairs(std::size_t i, const Add& add) const {
+    const auto nodes = around(i);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
+          add(nodes[a], nodes[b], static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
+  }
+
+  static Mat3 cross_matrix(const Vec3& v) {
+    Mat3 m;
+    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return m;
+  }
+
+  /// The Hessian is that of E(p, theta), whose directors are carried along; the forces are its gradient with
+  /// directors that do not spin. At the reference the two agree, but not their derivatives: what is between
+  /// them is -1/2 dE/ds (t x dt).(dt'), antisymmetric. The workspace's g_spin is that of the springs.
+  void add_carrying() {
+    for (std::size_t i = 0; i < model_.nodes; ++i) {
+      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
+      const Eigen::Matrix<double, 3, 9> q = tangent_by_positions(model_, i, work_);
+      const double g_spin = gradient_[model_.v_begin() + model_.twist_index[i]];
+      const Eigen::Matrix<double, 9, 9> k =
+          -0.5 * g_spin * q.transpose() * cross_matrix(work_.frame.z[i]) * q;
+      for_pairs(i, [&](std::size_t row, std::size_t column, Eigen::Index r, Eigen::Index c) {
+        by_x_.block(row, column, Mat3(k.block<3, 3>(r, c)));
+      });
+    }
+  }
+
+  /// Q^T I w (t x Q v) by v and by w, Q the tangent's derivative by the positions.
+  void add_gyroscopic() {
+    for (std::size_t i = 0; i < model_.nodes; ++i) {
+      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
+      const Eigen::Matrix<double, 3, 9> q = tangent_by_positions(model_, i, work_);
+      const Vec3 t = work_.frame.z[i];
+      const double momentum = model_.inertia[i] * work_.spin[i];
+      const Eigen::Matrix<double, 9, 9> k = momentum * q.transpose() * cross_matrix(t) * q;
+      for_pairs(i, [&](std::size_t row, std::size_t column, Eigen::Index r, Eigen::Index c) {
+        by_u_->block(row, column, Mat3(k.block<3, 3>(r, c)));
+      });
+      const Eigen::Matrix<double, 9, 1> by_spin =
+          model_.inertia[i] * q.transpose() * t.cross(work_.t_rate[i]);
+      const auto nodes = around(i);
+      for (std::size_t a = 0; a < 3; ++a)
+        if (nodes[a] != EdgeStiffness::kNone && feels(i, a))
+          by_u_->column(nodes[a], i, Vec3(by_spin.segment<3>(static_cast<Eigen::Index>(3 * a))));
+    }
+  }
+
+  /// At the reference (t_s x t).t' / (1 + t_s.t) changes by 1/2 (t' x t).dt.
+  void connect() {
+    connections_.clear();
+    for (std::size_t i = 0; i < model_.nodes; ++i) {
+      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
+      const Vec3 g = 0.5 * work_.t_rate[i].cross(work_.frame.z[i]);
+      const Eigen::Matrix<double, 9, 1> by = tangent_by_positions(model_, i, work_).transpose() * g;
+      connections_.push_back({i, around(i), {by.segment<3>(0), by.segment<3>(3), by.segment<3>(6)}});
+    }
+  }
+
+  /// Adds (F_u - s M) C, as far as the pattern goes.
+  void add_connection(double s, const Connection& c) {
+    const std::size_t own = pattern_.pivot(c.node);
+    const double inertia = mass_[4 * own + 3];
+    const auto add = [&](std::size_t row) {
+      const auto* from = by_u_->find(row, c.node);
+      for (std::size_t a = 0; a < 3; ++a) {
+        auto* to = c.from[a] == EdgeStiffness::kNone ? nullptr : matrix_.find(row, c.from[a]);
+        if (!to) continue;
+        for (std::size_t column = 0; column < 3; ++column)
+          for (std::size_t r = 0; r < B; ++r)
+            to->column[column][r] += from->column[B - 1][r] * c.by[a][static_cast<Eigen::Index>(column)];
+      }
+    };
+    add(c.node);
+    for (std::size_t e = pattern_.begin(own); e < pattern_.begin(own + 1); ++e)
+      add(pattern_.node(pattern_.later(e)));
+    for (const std::size_t e : pattern_.earlier(own)) add(pattern_.node(pattern_.low(e)));
+    for (std::size_t a = 0; a < 3; ++a)
+      if (c.from[a] != EdgeStiffness::kNone)
+        matrix_.row(c.node, c.from[a], Vec3(-(s * inertia + damping_[4 * own + 3]) * c.by[a]));
+  }
+
+  double turned_by(const Connection& c) const {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      if (c.from[a] != EdgeStiffness::kNone)
+        sum += c.by[a].dot(Eigen::Map<const Vec3>(&b_[4 * pattern_.pivot(c.from[a])]));
+    return sum;
+  }
+
+  const System& system_;
+  const Model& model_;
+  System::Workspace& work_;
+  bool loaded_, rates_matter_, timed_;
+  BlockPattern pattern_;
+  BlockMatrix<B> by_x_, matrix_;
+  std::optional<BlockMatrix<B>> by_u_;
+  std::optional<Differences<B>> differences_;
+  std::vector<Connection> connections_;
+  std::vector<Held> held_;
+  std::vector<Eigen::Index> place_x_, place_u_;  ///< per pivot four, -1 for what is held or not there
+  std::vector<double> mass_, damping_, b_, x_;
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace
+
+std::unique_ptr<StiffSolver> make_stiff_solver(const System& system, System::Workspace& work) {
+  if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work);
+  return std::make_unique<BlockSolver<3>>(system, work);
+}
+
+}  // namespace tendril

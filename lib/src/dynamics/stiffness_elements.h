@@ -1,0 +1,91 @@
+#pragma once
+
+#include "edge_stiffness.h"
+
+namespace tendril {
+
+/// Hands the blocks of an edge's matrix to a sink: block(row node, column node, 3x3), column(row node, angle
+/// node, 3), row(angle node, column node, 3), angles(angle node, angle node, number), each times `scale`.
+template <class Sink>
+void visit(const EdgeStiffness& e, double scale, Sink& sink) {
+  for (std::size_t a = 0; a < 5; ++a) {
+    const auto at = static_cast<Eigen::Index>(3 * a);
+    if (e.node[a] == EdgeStiffness::kNone) continue;
+    for (std::size_t b = 0; b < 5 && e.node_feels[a]; ++b)
+      if (e.node[b] != EdgeStiffness::kNone)
+        sink.block(e.node[a], e.node[b], Mat3(scale * e.k.block<3, 3>(at, static_cast<Eigen::Index>(3 * b))));
+    for (std::size_t b = 0; b < 2; ++b) {
+      const Eigen::Index angle = EdgeStiffness::kAngles + static_cast<Eigen::Index>(b);
+      if (e.angle[b] == EdgeStiffness::kNone) continue;
+      if (e.node_feels[a]) sink.column(e.node[a], e.angle[b], Vec3(scale * e.k.block<3, 1>(at, angle)));
+      if (e.angle_feels[b])
+        sink.row(e.angle[b], e.node[a], Vec3(scale * e.k.block<1, 3>(angle, at).transpose()));
+    }
+  }
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b)
+      if (e.angle[a] != EdgeStiffness::kNone && e.angle[b] != EdgeStiffness::kNone && e.angle_feels[a])
+        sink.angles(e.angle[a], e.angle[b],
+                    scale * e.k(EdgeStiffness::kAngles + static_cast<Eigen::Index>(a),
+                                EdgeStiffness::kAngles + static_cast<Eigen::Index>(b)));
+}
+
+/// Second derivatives by the vector from node i to the next.
+template <class Sink>
+void visit_edge(std::size_t i, const Mat3& k, double scale, Sink& sink) {
+  sink.block(i, i, Mat3(scale * k));
+  sink.block(i + 1, i + 1, Mat3(scale * k));
+  sink.block(i, i + 1, Mat3(-scale * k));
+  sink.block(i + 1, i, Mat3(-scale * k));
+}
+
+template <class Sink>
+void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sink) {
+  const Mat3 low = scale * (h.mixed - h.first);
+  const Mat3 high = scale * (h.mixed - h.second);
+  sink.block(i - 1, i - 1, Mat3(scale * h.first));
+  sink.block(i + 1, i + 1, Mat3(scale * h.second));
+  sink.block(i, i, Mat3(-low - high.transpose()));
+  sink.block(i - 1, i, low);
+  sink.block(i, i - 1, Mat3(low.transpose()));
+  sink.block(i, i + 1, high);
+  sink.block(i + 1, i, Mat3(high.transpose()));
+  sink.block(i - 1, i + 1, Mat3(-scale * h.mixed));
+  sink.block(i + 1, i - 1, Mat3(-scale * h.mixed.transpose()));
+}
+
+/// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
+template <class Sink>
+void visit_stiffness(const System::Model& model, const State& reference, const System::Workspace& work,
+                     double scale, Sink& sink) {
+  EdgeStiffness edge;
+  for (const NodeRange& rod : model.rods)
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
+      if (model.has_twist(i)) {
+        edge_stiffness(model, rod, i, reference, work, edge);
+        visit(edge, scale, sink);
+        continue;
+      }
+      visit_edge(i, stretch_stiffness(model, i, work), scale, sink);
+      if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, work), scale, sink);
+    }
+  for (const std::size_t node : model.bending.held_hinges) {
+    if (model.has_before(node))
+      visit_edge(node - 1, held_hinge_stiffness(model, node, node - 1, work), scale, sink);
+    if (model.has_after(node)) visit_edge(node, held_hinge_stiffness(model, node, node, work), scale, sink);
+  }
+}
+
+/// The same for the resistance, times minus the viscosity.
+template <class Sink>
+void visit_resistance(const System::Model& model, const System::Workspace& work, Sink& sink) {
+  EdgeStiffness edge;
+  for (const NodeRange& rod : model.rods)
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
+      if (!(model.viscosity[i] > 0.0)) continue;
+      edge_resistance(model, rod, i, work, edge);
+      visit(edge, -model.viscosity[i], sink);
+    }
+}
+
+}  // namespace tendril
