@@ -32,40 +32,52 @@ TENDRIL_INLINE void subtract_product(const Block<B>& a, const Block<B>& b, Block
 }
 
 template <int B>
-TENDRIL_INLINE void product(const Block<B>& a, const Block<B>& b, Block<B>& to) {
-  for (std::size_t c = 0; c < B; ++c) {
-    Four sum = four(a.column[0]) * b.column[c][0];
-    for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * b.column[c][k];
-    four(to.column[c]) = sum;
-  }
-}
-
-template <int B>
 TENDRIL_INLINE void transpose(const Block<B>& a, Block<B>& to) {
   for (std::size_t c = 0; c < B; ++c)
     for (std::size_t r = 0; r < B; ++r) to.column[c][r] = a.column[r][c];
 }
 
-/// By Gauss and Jordan without pivoting: the blocks are close to s^2 times a mass, or stiff and definite.
+/// L U of a block in place, the pivots inverted, without pivoting: the blocks are close to s^2 times a mass,
+/// or stiff and definite. Substitution with these factors, unlike an inverse of the block, keeps what is soft
+/// beside what is stiff.
 template <int B>
-TENDRIL_INLINE bool invert(Block<B>& a) {
+TENDRIL_INLINE bool decompose(Block<B>& a) {
   for (std::size_t k = 0; k < B; ++k) {
     double largest = 0.0;
-    for (std::size_t c = 0; c < B; ++c) largest = std::max(largest, std::fabs(a.column[c][k]));
+    for (std::size_t c = k + 1; c < B; ++c) largest = std::max(largest, std::fabs(a.column[c][k]));
     const double pivot = a.column[k][k];
     if (!(std::fabs(pivot) > 1e-12 * largest) || !(std::fabs(pivot) < 1e300)) return false;
     const double inverse = 1.0 / pivot;
-    std::array<double, 4> ratio = a.column[k];
-    ratio[k] = 0.0;
-    a.column[k] = {};
-    a.column[k][k] = 1.0;
-    for (std::size_t c = 0; c < B; ++c) {
-      const double top = a.column[c][k] * inverse;
-      a.column[c][k] = top;
-      four(a.column[c]) -= four(ratio) * top;
+    a.column[k][k] = inverse;
+    for (std::size_t r = k + 1; r < B; ++r) {
+      a.column[k][r] *= inverse;
+      for (std::size_t c = k + 1; c < B; ++c) a.column[c][r] -= a.column[k][r] * a.column[c][k];
     }
   }
   return true;
+}
+
+/// x = L^-1 x, or U^-1 x, for a column of numbers.
+template <int B>
+TENDRIL_INLINE void substitute_lower(const Block<B>& factors, double* x) {
+  for (std::size_t k = 0; k + 1 < B; ++k)
+    for (std::size_t r = k + 1; r < B; ++r) x[r] -= factors.column[k][r] * x[k];
+}
+template <int B>
+TENDRIL_INLINE void substitute_upper(const Block<B>& factors, double* x) {
+  for (std::size_t k = B; k-- > 0;) {
+    x[k] *= factors.column[k][k];
+    for (std::size_t r = 0; r < k; ++r) x[r] -= factors.column[k][r] * x[k];
+  }
+}
+
+/// a = a U^-1
+template <int B>
+TENDRIL_INLINE void divide_by_upper(const Block<B>& factors, Block<B>& a) {
+  for (std::size_t c = 0; c < B; ++c) {
+    for (std::size_t k = 0; k < c; ++k) four(a.column[c]) -= four(a.column[k]) * factors.column[c][k];
+    four(a.column[c]) *= factors.column[c][c];
+  }
 }
 
 template <int B>
@@ -75,34 +87,34 @@ struct Parts {
   Block<B>* lower;
 };
 
+/// The scalar elimination, block by block: D = L U, upper blocks L^-1 A, lower blocks A U^-1 (in the
+/// symmetric case their transposes times the inverse pivots, made on the way).
 template <int B, bool Symmetric>
 TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m) {
   for (std::size_t k = 0; k < pattern.size(); ++k) {
-    if (!invert<B>(m.diagonal[k])) return false;
-    const Block<B>& inverse = m.diagonal[k];
+    if (!decompose<B>(m.diagonal[k])) return false;
+    const Block<B> factors = m.diagonal[k];
     const std::size_t begin = pattern.begin(k);
-    const std::size_t end = pattern.begin(k + 1);
+    const std::size_t count = pattern.begin(k + 1) - begin;
     const std::size_t* pair = pattern.pairs(k);
-    Block<B> row[16];
-    const std::size_t count = end - begin;
-    if (count > 16) return false;
+    Block<B> low[BlockPattern::kMostLater];
     for (std::size_t a = 0; a < count; ++a) {
-      // What is left of the pivot: U^T in the symmetric case, L otherwise, still without the inverse.
-      if constexpr (Symmetric)
-        transpose<B>(m.upper[begin + a], row[a]);
-      else
-        row[a] = m.lower[begin + a];
-      Block<B> scaled;
-      product<B>(inverse, m.upper[begin + a], scaled);
-      m.upper[begin + a] = scaled;
+      Block<B>& upper = m.upper[begin + a];
+      for (std::size_t c = 0; c < B; ++c) substitute_lower<B>(factors, upper.column[c].data());
+      if constexpr (Symmetric) {
+        transpose<B>(upper, low[a]);
+        for (std::size_t c = 0; c < B; ++c) four(low[a].column[c]) *= factors.column[c][c];
+      } else {
+        divide_by_upper<B>(factors, m.lower[begin + a]);
+        low[a] = m.lower[begin + a];
+      }
     }
     for (std::size_t a = 0; a < count; ++a) {
-      subtract_product<B>(row[a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
+      subtract_product<B>(low[a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
       for (std::size_t b = a + 1; b < count; ++b, ++pair) {
-        subtract_product<B>(row[a], m.upper[begin + b], m.upper[*pair]);
-        if constexpr (!Symmetric) subtract_product<B>(row[b], m.upper[begin + a], m.lower[*pair]);
+        subtract_product<B>(low[a], m.upper[begin + b], m.upper[*pair]);
+        if constexpr (!Symmetric) subtract_product<B>(low[b], m.upper[begin + a], m.lower[*pair]);
       }
-      if constexpr (!Symmetric) product<B>(row[a], inverse, m.lower[begin + a]);
     }
   }
   return true;
@@ -140,20 +152,27 @@ template <int B, bool Symmetric>
 TENDRIL_INLINE void solve_blocks(const BlockPattern& pattern, const Block<B>* diagonal, const Block<B>* upper,
                                  const Block<B>* lower, double* b) {
   const std::size_t n = pattern.size();
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < n; ++k) {
+    double* x = b + 4 * k;
+    substitute_lower<B>(diagonal[k], x);
+    double scaled[4] = {};
+    for (std::size_t c = 0; c < B; ++c) scaled[c] = diagonal[k].column[c][c] * x[c];
     for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
       double* to = b + 4 * pattern.later(e);
       if constexpr (Symmetric)
-        subtract_transposed<B>(upper[e], b + 4 * k, to);
+        subtract_transposed<B>(upper[e], scaled, to);
       else
-        subtract<B>(lower[e], b + 4 * k, at(to));
+        subtract<B>(lower[e], x, at(to));
     }
+  }
   for (std::size_t k = n; k-- > 0;) {
-    Four x;
-    apply<B>(diagonal[k], b + 4 * k, x);
+    Four sum = at(b + 4 * k);
     for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
-      subtract<B>(upper[e], b + 4 * pattern.later(e), x);
-    at(b + 4 * k) = x;
+      subtract<B>(upper[e], b + 4 * pattern.later(e), sum);
+    double x[4];
+    at(x) = sum;
+    substitute_upper<B>(diagonal[k], x);
+    for (std::size_t c = 0; c < B; ++c) b[4 * k + c] = x[c];
   }
 }
 

@@ -58,7 +58,7 @@ class BlockMatrix {
   /// Zeroes a coordinate's row and column.
   void release(std::size_t node, std::size_t coordinate);
 
-  /// L D U in place. False when a pivot is not finite, or smaller than 1e-12 of its row within the block.
+  /// L U in place. False when a pivot is not finite, or smaller than 1e-12 of its row within the block.
   bool factor();
   /// Solves with the factors, in place: four numbers a pivot, in the pivots' order.
   void solve(double* b) const;

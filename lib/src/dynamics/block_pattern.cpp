@@ -1,6 +1,7 @@
 #include "block_pattern.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tendril {
 
@@ -23,6 +24,7 @@ void BlockPattern::eliminate(std::vector<std::vector<std::size_t>>& neighbours) 
     list.erase(std::unique(list.begin(), list.end()), list.end());
     // What a pivot leaves behind among its later neighbours is taken over by the first of them.
     if (list.size() > 1) neighbours[list[0]].insert(neighbours[list[0]].end(), list.begin() + 1, list.end());
+    assert(list.size() <= kMostLater);
     begin_.push_back(later_.size());
     later_.insert(later_.end(), list.begin(), list.end());
     low_.resize(later_.size(), k);

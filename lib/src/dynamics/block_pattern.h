@@ -13,6 +13,8 @@ namespace tendril {
 /// entries.
 class BlockPattern {
  public:
+  static constexpr std::size_t kMostLater = 32;  ///< later neighbours of a pivot
+
   /// \param order      the nodes, each once, in the order of elimination
   /// \param couplings  pairs of nodes; doubles and pairs of a node with itself are allowed
   BlockPattern(std::vector<std::size_t> order,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "words.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kSafety = 0.93;  // thesis 3.34
 constexpr double kShrink = 0.2;   // bounds of the factor
 constexpr double kGrow = 5.0;
+constexpr double kLeastError = 1e-2;  // that a prediction counts with, of the tolerance
 constexpr long kGuardInterval = 64;   // accepted steps between estimates of the largest frequency
 constexpr long kDue = 1'000'000'000;  // a count of steps past every interval
 constexpr int kLanczosVectors = 16;
@@ -180,6 +182,7 @@ bool Controller::step_towards(double target) {
 
 bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
   ++report_.rejected;
+  rejected_ = true;
   h_ = aim.h * factor;
   const double least =
       16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(state_.time), until_ - start_);
@@ -196,7 +199,17 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 void Controller::accept(const Aim& aim, double error) {
   embedded_->restart();
   const double grow = -1.0 / (embedded_->error_order() + 1);  // -0.2 for Cash-Karp
-  const double wish = error > 0.0 ? kSafety * std::pow(error, grow) : kGrow;
+  double wish = error > 0.0 ? kSafety * std::pow(error, grow) : kGrow;
+  if (embedded_->stiff()) {
+    // Gustafsson's predictive control: how the error changed from step to step tells what it will do next.
+    // Without it every third step or so of a ringing rod is tried in vain.
+    const double e = std::max(error, kLeastError);
+    if (last_error_ > 0.0)
+      wish = std::min(wish, kSafety * std::pow(last_error_ / (e * e), -grow) * aim.h / last_step_);
+    last_error_ = e;
+    last_step_ = aim.h;
+    if (std::exchange(rejected_, false)) wish = std::min(wish, 1.0);
+  }
   const double factor = std::min(kGrow, wish);
   wished_ = aim.h * wish;
   // A step cut short by an output says little about the next one.

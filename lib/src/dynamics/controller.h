@@ -67,7 +67,9 @@ class Controller {
   std::vector<double> rod_length_;
   double speed_ = 0.0, longest_ = 0.0, guard_frequency_ = -1.0;
   double energy_scale_ = 0.0;
-  double wished_ = 0.0;  ///< the step the last error would have allowed, uncapped
+  double wished_ = 0.0;                        ///< the step the last error would have allowed, uncapped
+  double last_error_ = 0.0, last_step_ = 0.0;  ///< of the last accepted step of a stiff method
+  bool rejected_ = false;                      ///< a step was tried in vain since
   bool started_ = false;
   long since_guard_ = 0, other_evaluations_ = 0;
   Energies now_;

@@ -21,12 +21,15 @@ void carry_along(const Model& model, const State& state, const NodeRange& rod, W
   };
   if (!model.holds_frame(seed))
     set(seed, rotate_smallest(state.tangent[seed], work.frame.z[seed], state.director[seed]));
+  const auto turned = [](const Vec3& axis, double angle, const Vec3& v) {
+    return angle == 0.0 ? v : rotate_about(axis, angle, v);
+  };
   for (std::size_t i = seed; i < last; ++i)
-    set(i + 1, rotate_about(work.frame.z[i + 1], model.rest_twist[i],
-                            rotate_smallest(work.frame.z[i], work.frame.z[i + 1], work.frame.y[i])));
+    set(i + 1, turned(work.frame.z[i + 1], model.rest_twist[i],
+                      rotate_smallest(work.frame.z[i], work.frame.z[i + 1], work.frame.y[i])));
   for (std::size_t i = seed; i > rod.first; --i)
     set(i - 1, rotate_smallest(work.frame.z[i], work.frame.z[i - 1],
-                               rotate_about(work.frame.z[i], -model.rest_twist[i - 1], work.frame.y[i])));
+                               turned(work.frame.z[i], -model.rest_twist[i - 1], work.frame.y[i])));
 }
 
 Evaluation all_frames(const Model& model, const State& state, Workspace& work) {
@@ -55,6 +58,7 @@ Evaluation System::rebase(State& state, Workspace& work) const {
     state.y[model.spin_begin() + model.twist_index[i]] = work.spin[i];
   }
   for (const NodeRange& rod : model.rods) {
+    if (!model.has_twist(rod.first)) continue;  // keeps its rest twist
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       const double raw = twist_angle(work.frame[i], work.frame[i + 1]);
       state.twist[i] += std::remainder(raw - state.twist[i], 2 * M_PI);
