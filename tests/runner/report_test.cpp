@@ -213,6 +213,16 @@ TEST(Report, MarksWhatItExtrapolatesAndSkipsWhatWouldTakeLonger) {
   EXPECT_NE(folder.run("report scene.json --out out " + options).out.find(" ~"), std::string::npos);
 }
 
+TEST(Report, CertifiesWhatIsTooStiffForExplicitMethods) {
+  const Folder folder;
+  folder.write("scene.json", small_scene(false, 2e14));
+  const Json report = report_of(folder, "--methods cash_karp,automatic --tolerances 1e-3,1e-6 --budget 10");
+  EXPECT_EQ(report.at("reference").at("second").at("method"), "backward_euler") << report.at("reference");
+  EXPECT_LT(report.at("reference").at("position_gap").get<double>(), 1e-7);
+  EXPECT_EQ(runs_of(report, "cash_karp").front().at("outcome"), "refused");
+  EXPECT_EQ(report.at("recommended").at("method"), "automatic");
+}
+
 TEST(Report, CertifiesATreeToo) {
   const Folder folder;
   folder.write("scene.json", small_scene(true));

@@ -88,9 +88,12 @@ void make_folder(const std::string& folder) {
 
 Results carry_out_with_progress(Study& study, const Plan& plan) {
   Progress progress;
+  const double begin = cpu_seconds();
   double part = 0.0;
   study.on_progress([&](double) {
-    progress.show("studying", part);
+    // The reference comes first, and takes as many runs as fit into its half of the budget.
+    const double spent = (cpu_seconds() - begin) / plan.budget;
+    progress.show("studying", std::max(part, std::min(kReferencePart, kReferencePart * 2.0 * spent)));
     return !Interrupt::requested();
   });
   return carry_out(study, plan, [&](double done) {

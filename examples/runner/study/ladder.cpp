@@ -42,8 +42,10 @@ Trial timed(const Study& study, const Setting& setting, double cap) {
 }
 
 void compare(Trial& trial, const Reference& reference, double length) {
-  const bool moved = trial.finished() || trial.outcome == Trial::Outcome::capped;
-  if (moved) trial.error = distance(trial.track, reference.first.track, length);
+  // Of a run that was stopped, only outputs after the start say something.
+  const bool moved = !trial.track.moments.empty() && trial.track.moments.back().time > 0.0;
+  const bool counts = trial.finished() || trial.outcome == Trial::Outcome::capped;
+  if (moved && counts) trial.error = distance(trial.track, reference.first.track, length);
   trial.track = {};
 }
 
@@ -108,7 +110,7 @@ Results carry_out(const Study& study, const Plan& plan, const std::function<void
     most = std::max(most, descents.back().rungs.size());
   }
   for (std::size_t k = 0; k < most; ++k) {
-    told(0.3 + 0.7 * static_cast<double>(k) / static_cast<double>(most));
+    told(kReferencePart + (1.0 - kReferencePart) * static_cast<double>(k) / static_cast<double>(most));
     for (Descent& descent : descents) {
       if (k >= descent.rungs.size() || descent.impossible) continue;
       descend(study, descent, descent.rungs[k], plan.budget - (cpu_seconds() - begin), out);

@@ -36,6 +36,9 @@ struct Results {
   Advice advice;
 };
 
+/// The part of a study that the reference is taken for.
+constexpr double kReferencePart = 0.3;
+
 /// Makes the reference, then goes down all ladders together, loosest rungs first, until the budget is spent.
 /// Where a run was capped the tighter ones of its method are skipped. \param told  called before each run
 /// with the part that is done

@@ -17,7 +17,8 @@ OrderedJson to_json(const Setting& setting) {
 }
 
 bool below_gap(const Trial& trial, const Results& results) {
-  return trial.error && results.reference && trial.error->position < results.reference->gap.position;
+  return trial.error && results.reference && std::isfinite(results.reference->gap.position) &&
+         trial.error->position < results.reference->gap.position;
 }
 
 /// The stability of its steps costs more than their accuracy.
@@ -62,7 +63,8 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-std::string line_of(const Trial& trial, const Results& results) {
+/// \param before  the line above, whose reason is not said again
+std::string line_of(const Trial& trial, const Trial* before, const Results& results) {
   const bool capped = trial.outcome == Trial::Outcome::capped;
   char text[256];
   std::string error = "-", director = "-";
@@ -79,6 +81,8 @@ std::string line_of(const Trial& trial, const Results& results) {
                 ran ? (mark + number("%.3g", trial.evaluations)).c_str() : "-",
                 trial.finished() ? number("%.1e", trial.report.imbalance).c_str() : "-");
   std::string out = text;
+  const bool again = before != nullptr && before->reason == trial.reason && !trial.reason.empty();
+  if (again) return out + to_string(trial.outcome) + " likewise\n";
   if (!trial.finished()) return out + to_string(trial.outcome) + ": " + trial.reason + "\n";
   if (held_by_guard(trial)) out += "steps held by the guard; ";
   if (trial.setting.method == Method::automatic) {
@@ -129,7 +133,8 @@ std::string to_table(const Results& results, const Study& study) {
   std::snprintf(text, sizeof text, "%-26s %9s %9s %10s %11s %9s\n", "run", "error", "angle", "CPU",
                 "evaluations", "energy");
   out += text;
-  for (const Trial& trial : results.trials) out += line_of(trial, results);
+  for (const Trial& trial : results.trials)
+    out += line_of(trial, &trial == &results.trials.front() ? nullptr : &trial - 1, results);
   out +=
       "~ extrapolated, > of the part that was run, < below what the reference resolves; energy: imbalance "
       "over the "

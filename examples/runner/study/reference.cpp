@@ -4,16 +4,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "study/extrapolation.h"
+
 namespace tendril::runner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The last of a row of ever tighter runs.
-struct Tightest {
-  Trial trial;
-  double settled = kInfinity;  ///< how far it moved from the run before
-};
 
 std::vector<Setting> row_of(const Study& study, Method method, double tightest) {
   std::vector<Setting> out;
@@ -54,6 +50,11 @@ std::optional<Tightest> tightest_run(const Study& study, Method method, double s
   return out;
 }
 
+std::string name(const Trial& trial) {
+  return to_string(trial.setting) +
+         (trial.setting.method == Method::backward_euler ? " and longer, extrapolated" : "");
+}
+
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1e", value);
@@ -64,7 +65,7 @@ std::string number(double value) {
 
 Reference certify(Trial first, Trial second, double length, const Agreement& wanted) {
   Reference out{std::move(first), std::move(second), false, {kInfinity, kInfinity}, {}};
-  const std::string names = to_string(out.first.setting) + " and " + to_string(out.second.setting);
+  const std::string names = name(out.first) + " and " + name(out.second);
   if (!out.first.finished() || !out.second.finished()) {
     out.statement = "not certified: only " +
                     to_string((out.first.finished() ? out.first : out.second).setting) +
@@ -95,6 +96,9 @@ std::optional<Reference> make_reference(const Study& study, double seconds, doub
     if (found.size() == 2) break;
     std::optional<Tightest> run = tightest_run(study, method, seconds / 2, tightest, failed);
     if (run) found.push_back(std::move(*run));
+  }
+  if (found.size() < 2) {
+    if (std::optional<Tightest> run = extrapolated_run(study, seconds / 2)) found.push_back(std::move(*run));
   }
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return certify(std::move(found[0].trial), std::move(*failed), length, wanted);

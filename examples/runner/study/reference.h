@@ -21,6 +21,12 @@ struct Agreement {
 /// Says whether two runs certify each other: both finished, by different methods, and close enough.
 Reference certify(Trial first, Trial second, double length, const Agreement& wanted);
 
+/// The last of a row of ever tighter runs.
+struct Tightest {
+  Trial trial;
+  double settled;  ///< how far it moved from the run before; infinite when there was none
+};
+
 /// Runs RODAS and Cash-Karp, each at ever tighter tolerances down to `tightest` while its half of `seconds`
 /// lasts. Where one of them cannot take the scene, classic Runge-Kutta 4 at ever smaller steps stands in. The
 /// reference is the one of the two that changed less between its last two runs. Nothing when no run finishes.
