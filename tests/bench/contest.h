@@ -51,8 +51,19 @@ struct Reference {
 struct Effort {
   double seconds;    ///< of CPU
   double tolerance;  ///< no tighter than this
+  double gap;        ///< close enough
 };
 std::optional<Reference> make_reference(const Problem& problem, const Effort& effort);
+
+/// A second opinion that shares nothing with the methods compared: linearly implicit Euler at steps halved
+/// until the time is up, its error taken away power by power of the step (Romberg). For rods without twist;
+/// O(nodes) a step.
+struct Extrapolated {
+  Eigen::VectorXd p;
+  double settled;  ///< how far the last halving moved it, relative to the length
+  int steps;       ///< the most
+};
+std::optional<Extrapolated> extrapolated_euler(const Problem& problem, double seconds);
 
 /// The equations of a problem as peers see them: dy = f(t, y) on all of System's y. The frames that a rod
 /// without twist is measured against may be renewed at any time, so every 32nd step is enough and costs

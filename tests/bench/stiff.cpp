@@ -132,6 +132,11 @@ void check(const Problem& problem, const Reference& reference, const std::vector
                        " never met the goal: " + named(scores, implicit).remark);
 }
 
+Effort effort_for(const Problem& problem, bool quick) {
+  if (quick) return {3.0, 1e-6, 0.05 * kGoal};
+  return {problem.system.node_count() > 500 ? 40.0 : 20.0, 1e-8, 0.05 * kGoal};
+}
+
 struct Row {
   std::string problem;
   std::vector<Score> scores;
@@ -139,8 +144,7 @@ struct Row {
 
 OrderedJson measure(const Problem& problem, Settings& settings, std::vector<Row>& rows) {
   OrderedJson out{{"problem", problem.name}};
-  const std::optional<Reference> reference =
-      make_reference(problem, settings.quick ? Effort{3.0, 1e-6} : Effort{20.0, 1e-8});
+  const std::optional<Reference> reference = make_reference(problem, effort_for(problem, settings.quick));
   if (!reference) {
     settings.broken.push_back(problem.name + ": no reference");
     return out;

@@ -86,9 +86,13 @@ class Equations {
         continue;
       }
       const Eigen::Index node = column / 3;
-      const Eigen::Index last = std::min(half / 3 - 1, node + kReach);
-      for (Eigen::Index row = std::max<Eigen::Index>(3, 3 * (node - kReach)); row < 3 * last + 3; ++row)
-        add(half + row, -stiffness_.coeff(row, column) / rod.mass[static_cast<std::size_t>(row / 3)]);
+      const Eigen::Index first = std::max<Eigen::Index>(3, 3 * (node - kReach));
+      const Eigen::Index end = std::min(half, 3 * (node + kReach) + 3);
+      double* at = data + next;
+      for (Eigen::Index row = first; row < end; ++row) add(half + row, 0.0);
+      for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
+        if (it.row() >= first && it.row() < end)
+          at[it.row() - first] = -it.value() / rod.mass[static_cast<std::size_t>(it.row() / 3)];
     }
     columns[size_] = next;
   }
