@@ -133,7 +133,7 @@ bool Search::step(const Way& way, double& done, double& h) {
   }
   StaticNewton::Outcome outcome = StaticNewton::Outcome::not_evaluable;
   std::string why = "anchors move too fast";
-  for (; h > kShortest; h /= 4) {
+  for (; h > std::min(kShortest, 0.5 * (1.0 - done)); h /= 4) {
     // The last step ends exactly where it should.
     const double s = done + h > 1.0 - 1e-12 ? 1.0 : done + h;
     Poise next;

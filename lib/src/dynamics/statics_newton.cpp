@@ -10,7 +10,7 @@ namespace tendril {
 namespace {
 
 constexpr int kMostDescending = 300;  // iterations down the energy
-constexpr int kMostContracting = 40;  // iterations along a branch
+constexpr int kMostContracting = 25;  // iterations along a branch
 constexpr int kUphill = 5;            // steps in a row that may lie above the lowest energy
 constexpr double kChord = 0.05;       // size of a step from which its tangent serves again
 constexpr double kContraction = 0.2;  // at least, of steps by a tangent that served before
@@ -121,8 +121,14 @@ StaticNewton::Outcome StaticNewton::find(Poise& at, int most_unstable) {
     step.size = step.x.allFinite() ? size_of(step.x, at) : kChord;
     if (step.size < kChord) chords(at, step);
   }
-  cautious_ = false;
+  // Off a branch's own neutral directions steps stay short; down the energy each state tells anew.
+  cautious_ = cautious_ && !seeks_stable_;
   return seeks_stable_ ? descend(at) : contract(at);
+}
+
+/// A whole step that changes the energy by less than its rounding.
+bool StaticNewton::gains_nothing(const Poise& at, const Step& step) const {
+  return step.part == 1.0 && std::abs(step.x.dot(at.residual)) < noise(at);
 }
 
 /// One step under the watch of the energy: some steps may lie above the lowest one seen, since turning an
@@ -254,17 +260,18 @@ StaticNewton::Outcome StaticNewton::contract(Poise& at) {
     const bool last = step.part == 1.0 && step.size <= options_.tolerance;
     bool shorter = false;
     for (double part = step.part; part > kLeastPart * step.part && !shorter; part *= last ? 0.0 : 0.5)
-      shorter = try_move(at, part * step.x, next) &&
-                (last || part < step.part * 1e-2 || step.size < kNear ||
-                 problem_.coordinates().norm(tangent_.solve(next.residual)) <= (1 - part / 4) * step.size);
+      shorter =
+          try_move(at, part * step.x, next) &&
+          (last || step.size < kNear || size_of(solve(next.residual), next) <= (1 - part / 4) * step.size);
     if (!shorter) return fail(Outcome::stalled, sentence("no part of a step of size ", step.size, " helps"));
     at = std::move(next);
     if (last) return Outcome::found;
     slow = step.size < kNear && step.size > 0.8 * before ? slow + 1 : 0;
     cautious_ = cautious_ || slow > 0;
-    if (slow > kSlow)
+    if (slow > kSlow && gains_nothing(at, step)) return Outcome::found;
+    if (slow > 3 * kSlow)
       return fail(Outcome::stalled, sentence("the step no longer shrinks below ", step.size, ": rounding"));
-    before = step.size;
+    before = std::min(before, step.size);
   }
   return fail(Outcome::stalled,
               sentence("not converged in ", kMostContracting, " iterations, the last of size ", last_step_));

@@ -49,6 +49,7 @@ class StaticNewton {
   bool fall(const Poise& at, double amplitude, const Eigen::VectorXd& x, Poise& lowest);
   bool try_move(const Poise& from, const Eigen::VectorXd& x, Poise& to);
   double noise(const Poise& at) const;
+  bool gains_nothing(const Poise& at, const Step& step) const;
   Outcome fail(Outcome outcome, std::string reason);
 
   StaticProblem& problem_;

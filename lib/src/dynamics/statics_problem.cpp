@@ -14,6 +14,20 @@ StaticProblem::StaticProblem(const System& system)
       loads_(system, coordinates_),
       conservative_(loads_.conservative()) {
   for (const Joint& joint : system.scene().joints) conservative_ = conservative_ && joint.reaction;
+  Scene turning = system.scene();
+  bool any = false;
+  for (Anchor& anchor : turning.anchors) {
+    if (!anchor.motion) continue;
+    any = true;
+    anchor.motion = [motion = anchor.motion, clock = clock_](double time) {
+      AnchorPose pose = motion(time);
+      pose.position = motion(*clock).position;
+      return pose;
+    };
+  }
+  if (!any) return;
+  turning_.emplace(std::move(turning));
+  turning_work_ = turning_->make_workspace();
 }
 
 Evaluation StaticProblem::settle(Poise& at) {
@@ -39,29 +53,39 @@ Evaluation StaticProblem::move(const Poise& from, const Eigen::VectorXd& x, doub
   return settle(to);
 }
 
+/// Positions of moving anchors go by the columns of the Hessian: differences of a stiff rod's forces would
+/// drown in rounding. Their frames go by differences, at positions that stay, where the tensions cancel.
 Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time, Eigen::VectorXd& rate) {
   rate = -by_load * at.loads;
   if (by_time == 0.0) return {};
-  // Backwards where forwards would leave the way is not needed: poses and signals are given at all times.
-  const double share = 1e-7;
+  const double share = 1e-6;
   State there = at.state;
   there.time += share * by_time;
   double energy = 0.0;
-  Eigen::VectorXd gradient, loads;
-  if (const Evaluation e =
-          system_.elastic_gradient(at.state, there.time, at.state.y, energy, gradient, *work_);
-      !e.ok())
-    return e;
+  Eigen::VectorXd before, after, loads;
+  *clock_ = at.state.time;
+  const auto bent = [&](double time, Eigen::VectorXd& gradient) {
+    return turning_ ? turning_->elastic_gradient(at.state, time, at.state.y, energy, gradient, *turning_work_)
+                    : system_.elastic_gradient(at.state, at.state.time, at.state.y, energy, gradient, *work_);
+  };
+  if (const Evaluation e = bent(at.state.time, before); !e.ok()) return e;
+  if (const Evaluation e = bent(there.time, after); !e.ok()) return e;
   if (const Evaluation e = loads_.add(there, loads, energy, *work_); !e.ok()) return e;
+  for (const Anchor& anchor : system_.scene().anchors) {
+    if (!anchor.motion || !anchor.holds_position || elastic_.cols() != at.gradient.size()) continue;
+    const auto node = static_cast<Eigen::Index>(system_.rods()[anchor.rod].first + anchor.node);
+    const Vec3 move = anchor.motion(there.time).position - anchor.motion(at.state.time).position;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) after += move[axis] * elastic_.col(3 * node + axis);
+  }
   for (Eigen::Index k = 0; k < size(); ++k) {
     const Eigen::Index g = coordinates_.in_gradient(k);
-    rate[k] += (gradient[g] - at.gradient[g] - at.load * (loads[k] - at.loads[k])) / share;
+    rate[k] += (after[g] - before[g] - at.load * (loads[k] - at.loads[k])) / share;
   }
   return {};
 }
 
 Evaluation StaticProblem::tangent(const Poise& at, Eigen::SparseMatrix<double>& k) {
-  Eigen::SparseMatrix<double> elastic;
+  Eigen::SparseMatrix<double>& elastic = elastic_;
   if (const Evaluation e = elastic_stiffness(system_, at.state, elastic, *work_); !e.ok()) return e;
   std::vector<std::pair<Eigen::Index, double>> column;
   k.resize(size(), size());

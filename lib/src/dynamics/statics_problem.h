@@ -52,6 +52,11 @@ class StaticProblem {
   StaticCoordinates coordinates_;
   StaticLoads loads_;
   bool conservative_;
+  Eigen::SparseMatrix<double> elastic_;  ///< the last Hessian
+  // The same scene with anchors that turn, but stay where they are at the clock's time.
+  std::shared_ptr<double> clock_ = std::make_shared<double>(0.0);
+  std::optional<System> turning_;
+  System::WorkspacePtr turning_work_;
 };
 
 }  // namespace tendril
