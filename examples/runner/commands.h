@@ -21,6 +21,7 @@ Command project_command(CLI::App& parent);
 Command check_command(CLI::App& parent);
 Command render_command(CLI::App& parent);
 Command report_command(CLI::App& parent);
+Command statics_command(CLI::App& parent);
 
 /// What --threads asks for; 0 means all the machine has.
 int thread_count(int asked);

@@ -9,12 +9,14 @@
 namespace tendril::runner {
 namespace {
 
-/// amplitude sin(2 pi frequency t + phase), and its rate.
+/// sin(2 pi frequency t + phase), or t where even, and its rate.
 struct Wave {
   double frequency = 0.0, phase = 0.0;
+  bool even = false;
 
-  double value(double t) const { return std::sin(2.0 * std::numbers::pi * frequency * t + phase); }
+  double value(double t) const { return even ? t : std::sin(2.0 * std::numbers::pi * frequency * t + phase); }
   double rate(double t) const {
+    if (even) return 1.0;
     const double omega = 2.0 * std::numbers::pi * frequency;
     return omega * std::cos(omega * t + phase);
   }
@@ -41,8 +43,22 @@ struct Motion {
   }
 };
 
-Wave read_wave(const JsonNode& node) {
-  return {node.at("frequency").not_negative(), node.number_or("phase", 0.0)};
+Wave read_swing(const JsonNode& node) {
+  return {node.at("frequency").not_negative(), node.number_or("phase", 0.0), false};
+}
+
+/// Either swings, with amplitude and frequency, or goes on evenly at `rate`. \return  the name of the size
+const char* read_wave(const JsonNode& node, const char* rate, Wave& wave) {
+  if (node.has(rate) == node.has("amplitude"))
+    node.refuse(std::string("amplitude and ") + rate, "one of them, not both");
+  if (node.has(rate)) {
+    if (node.has("frequency") || node.has("phase"))
+      node.refuse(std::string("frequency or phase beside ") + rate, "an even motion");
+    wave = {0.0, 0.0, true};
+    return rate;
+  }
+  wave = read_swing(node);
+  return "amplitude";
 }
 
 struct Rotation {
@@ -57,7 +73,8 @@ Rotation read_rotation(const JsonNode& node) {
   const double length = axis.stableNorm();
   if (!(length > 0.0) || !std::isfinite(length))
     node.at("axis").refuse("no direction", "a vector that is not zero");
-  Rotation out{axis / length, node.at("amplitude").number(), read_wave(node), std::nullopt};
+  Rotation out{axis / length, 0.0, {}, std::nullopt};
+  out.angle = node.at(read_wave(node, "rate", out.wave)).number();
   if (node.has("about")) out.about = node.at("about").vec3();
   return out;
 }
@@ -94,8 +111,8 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
     motion.rest = motion.about = rod.p[i];
     motion.frame = frames.frame[i];
     if (anchor.has("translation")) {
-      motion.shift = anchor.at("translation").at("amplitude").vec3();
-      motion.shift_wave = read_wave(anchor.at("translation"));
+      const JsonNode way = anchor.at("translation");
+      motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
     }
     if (rotation) {
       motion.axis = rotation->axis;
