@@ -47,11 +47,10 @@ const char* to_string(Balance balance);
 /// energy the symmetric part of K counts.
 struct Stability {
   enum class Kind { stable, neutral, unstable } kind = Kind::neutral;
-  int unstable = 0;              ///< eigenvalues below -threshold
-  int neutral = 0;               ///< within it
-  double smallest = 0.0;         ///< the smallest eigenvalue [energy]
-  double threshold = 0.0;        ///< [energy]
-  Eigen::VectorXd displacement;  ///< its mode: 3 per node, largest entry 1, or empty where nothing moves
+  int unstable = 0;        ///< eigenvalues below -threshold
+  int neutral = 0;         ///< within it
+  double smallest = 0.0;   ///< the smallest eigenvalue [energy]
+  double threshold = 0.0;  ///< [energy]
 };
 const char* to_string(Stability::Kind kind);
 
