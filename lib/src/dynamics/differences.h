@@ -8,18 +8,14 @@
 
 namespace tendril {
 
-/// Derivatives of the forces without springs, by differences of the equations of motion: groups of columns, a
-/// kind of coordinate (an axis of p; an axis of v or the spin w) at the nodes of one colour, are moved
-/// together. Nodes of one colour share no row of the pattern.
+/// Derivatives of the external forces that do not give their own, by differences: groups of columns, a kind
+/// of coordinate (an axis of p, an axis of v, the spin w) at the nodes of one colour, are moved together.
+/// Nodes of one colour share no row of the pattern.
 template <int B>
 class Differences {
  public:
-  /// \param rates  by the velocities and spins too, for external forces
-  Differences(const System::Model& model, const BlockPattern& pattern, bool rates)
-      : model_(model),
-        kinds_(!rates                  ? 3
-               : model.twist_nodes > 0 ? 7
-                                       : 6) {
+  Differences(const System::Model& model, const BlockPattern& pattern)
+      : model_(model), kinds_(model.twist_nodes > 0 ? 7 : 6) {
     neighbours_.resize(pattern.size());
     for (std::size_t k = 0; k < pattern.size(); ++k) {
       neighbours_[pattern.node(k)].push_back(pattern.node(k));
@@ -35,7 +31,7 @@ class Differences {
   /// Adds to the two matrices; returns the evaluations it took, negative when one failed.
   long add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
     long evaluations = 1;
-    if (!rates(model_, state, state.time, state.y, false, base_, work).ok()) return -1;
+    if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
     const Eigen::Index n3 = model_.v_begin();
     const double speed = std::max(state.y.segment(n3, n3).cwiseAbs().maxCoeff(), length_);
     const double steps[3] = {1e-7 * length_, 1e-7 * speed, 1e-7 * speed / length_};
@@ -51,7 +47,7 @@ class Differences {
         }
         if (!any) continue;
         ++evaluations;
-        if (!rates(model_, state, state.time, moved_, false, dy_, work).ok()) return -1;
+        if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
         dy_ = (dy_ - base_) / step;
         for (const std::size_t i : nodes)
           if (place_of(i, kind) >= 0) take(i, kind, kind < 3 ? by_x : by_u);
@@ -89,11 +85,9 @@ class Differences {
       auto* block = to.find(row, i);
       if (!model_.holds_position(row))
         for (std::size_t r = 0; r < 3; ++r)
-          block->column[column][r] +=
-              model_.moved_mass[row] * dy_[model_.v_begin() + static_cast<Eigen::Index>(3 * row + r)];
+          block->column[column][r] += dy_[model_.v_begin() + static_cast<Eigen::Index>(3 * row + r)];
       if (B == 4 && model_.inverse_inertia[row] > 0.0)
-        block->column[column][B - 1] +=
-            model_.inertia[row] * dy_[model_.spin_begin() + model_.twist_index[row]];
+        block->column[column][B - 1] += dy_[model_.spin_begin() + model_.twist_index[row]];
     }
   }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <array>
 #include <limits>
 
@@ -13,13 +11,13 @@ namespace tendril {
 /// nodes and the angles of two. Positions that ride on another node stand under the node that carries them.
 struct EdgeStiffness {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  static constexpr Eigen::Index kAngles = 15;
-
   std::array<std::size_t, 5> node;   ///< in the order of the positions; kNone for what is not there
   std::array<std::size_t, 2> angle;  ///< nodes whose angles come last
   std::array<bool, 5> node_feels{};  ///< whether the row acts: nobody feels through a one-way joint
   std::array<bool, 2> angle_feels{};
-  Eigen::Matrix<double, 17, 17> k;  ///< 0 where nothing is
+  Mat3 k[5][5];         ///< by the positions of slots a <= b; the rest by symmetry
+  Vec3 by_angle[5][2];  ///< position by angle
+  double angles[2][2];
 };
 
 /// Exact stiffness of edge i of a rod with twist, in the coordinates (p, theta) about a state that is its own
@@ -50,9 +48,5 @@ HingeStiffness hinge_stiffness(const System::Model& model, std::size_t i, const 
 /// edge.
 Mat3 held_hinge_stiffness(const System::Model& model, std::size_t node, std::size_t i,
                           const System::Workspace& work);
-
-/// Tangent of node i by p_{i-1}, p_i, p_{i+1}.
-Eigen::Matrix<double, 3, 9> tangent_by_positions(const System::Model& model, std::size_t i,
-                                                 const System::Workspace& work);
 
 }  // namespace tendril

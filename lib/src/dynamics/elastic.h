@@ -37,4 +37,12 @@ void pull_back(const System::Model& model, System::Workspace& work);
 Evaluation rates(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                  bool springs, Eigen::VectorXd& dy, System::Workspace& work);
 
+/// What forces see, from the workspace's kinematics with all rates.
+StateView view(const System::Model& model, double t, System::Workspace& work);
+
+/// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
+/// and do not give their derivatives; everything else is 0.
+Evaluation undifferentiated_loads(const System::Model& model, const State& reference,
+                                  const Eigen::VectorXd& y, Eigen::VectorXd& loads, System::Workspace& work);
+
 }  // namespace tendril

@@ -82,22 +82,96 @@ Vec3 Wind::velocity(const Vec3& x, double t) const {
   return options_.switched(t) * (1.0 + gust) * options_.mean;
 }
 
+Mat3 Wind::velocity_gradient(const Vec3& x, double t) const {
+  const double speed = options_.mean.norm();
+  if (speed == 0.0 || options_.gust == 0.0 || waves_.empty()) return Mat3::Zero();
+  const double delay = x.dot(options_.mean) / (speed * speed);
+  double slope = 0.0;
+  for (const Wave& wave : waves_) {
+    const double omega = 2 * std::numbers::pi * wave.frequency;
+    slope += omega * std::cos(omega * (t - delay) + wave.phase);
+  }
+  slope *= options_.switched(t) * options_.gust / std::sqrt(static_cast<double>(waves_.size()));
+  return -slope / (speed * speed) * options_.mean * options_.mean.transpose();
+}
+
+namespace {
+
+/// An edge in the air: its unit vector and length, the flow across and along it, and what makes the drag of
+/// half of it.
+struct Exposed {
+  Exposed(const Vec3& edge, const Vec3& flow, double per_length, const WindOptions& options)
+      : length(edge.norm()),
+        e(edge / length),
+        q(e.dot(flow)),
+        across(flow - q * e),
+        normal(per_length * length * options.normal_drag),
+        tangential(per_length * length * options.tangential_drag) {}
+
+  Vec3 drag() const { return normal * across.norm() * across + tangential * std::abs(q) * q * e; }
+
+  /// Of the drag by the flow.
+  Mat3 by_flow() const {
+    const Mat3 along = e * e.transpose();
+    return normal * by_across() * (Mat3::Identity() - along) + 2 * tangential * std::abs(q) * along;
+  }
+  /// Of the drag by the edge, the flow being what it is.
+  Mat3 by_edge() const {
+    const Mat3 turn = (Mat3::Identity() - e * e.transpose()) / length;
+    const Vec3 by_q = turn * (q * e + across);  // of q; turn is symmetric
+    const Mat3 of_across = -q * turn - e * by_q.transpose();
+    return normal * by_across() * of_across +
+           tangential * (2 * std::abs(q) * e * by_q.transpose() + std::abs(q) * q * turn) +
+           drag() * e.transpose() / length;
+  }
+
+  double length;
+  Vec3 e;
+  double q;
+  Vec3 across;
+  double normal, tangential;
+
+ private:
+  Mat3 by_across() const {
+    const double size = across.norm();
+    if (!(size > 0.0)) return Mat3::Zero();
+    return size * Mat3::Identity() + across * across.transpose() / size;
+  }
+};
+
+}  // namespace
+
 void Wind::add(const StateView& state, const Loads& loads) const {
   for (const NodeRange& rod : state.rods) {
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       const Vec3 edge = state.p[i + 1] - state.p[i];
-      const double length = edge.norm();
-      if (!(length > 0.0)) continue;
-      const Vec3 e = edge / length;
-      const Vec3 w =
+      if (edge.isZero(0.0)) continue;
+      const Vec3 flow =
           0.5 * (state.v[i] + state.v[i + 1]) - velocity(0.5 * (state.p[i] + state.p[i + 1]), state.time);
-      const Vec3 along = e.dot(w) * e;
-      const Vec3 across = w - along;
-      const double scale = -0.25 * options_.air_density * state.width[i] * length;
-      const Vec3 half = scale * (options_.normal_drag * across.norm() * across +
-                                 options_.tangential_drag * along.norm() * along);
+      const Vec3 half = Exposed(edge, flow, -0.25 * options_.air_density * state.width[i], options_).drag();
       loads.force[i] += half;
       loads.force[i + 1] += half;
+    }
+  }
+}
+
+void Wind::add_derivatives(const StateView& state, LoadDerivatives& to) const {
+  for (const NodeRange& rod : state.rods) {
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
+      const Vec3 edge = state.p[i + 1] - state.p[i];
+      if (edge.isZero(0.0)) continue;
+      const Vec3 middle = 0.5 * (state.p[i] + state.p[i + 1]);
+      const Vec3 flow = 0.5 * (state.v[i] + state.v[i + 1]) - velocity(middle, state.time);
+      const Exposed exposed(edge, flow, -0.25 * options_.air_density * state.width[i], options_);
+      const Mat3 by_velocity = 0.5 * exposed.by_flow();
+      const Mat3 by_middle = -by_velocity * velocity_gradient(middle, state.time);
+      const Mat3 by_edge = exposed.by_edge();
+      for (const std::size_t at : {i, i + 1}) {
+        to.add_by_velocity(at, i, by_velocity);
+        to.add_by_velocity(at, i + 1, by_velocity);
+        to.add_by_position(at, i, by_middle - by_edge);
+        to.add_by_position(at, i + 1, by_middle + by_edge);
+      }
     }
   }
 }
@@ -131,6 +205,11 @@ PullTowards::PullTowards(std::size_t rod, std::size_t node, const Vec3& target, 
 void PullTowards::add(const StateView& state, const Loads& loads) const {
   const std::size_t i = flat(state, rod_, node_);
   loads.force[i] -= stiffness_ * (state.p[i] - target_);
+}
+
+void PullTowards::add_derivatives(const StateView& state, LoadDerivatives& to) const {
+  const std::size_t i = flat(state, rod_, node_);
+  to.add_by_position(i, i, -stiffness_ * Mat3::Identity());
 }
 
 void PullTowards::check(std::span<const NodeRange> rods) const {

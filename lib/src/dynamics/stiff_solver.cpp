@@ -5,7 +5,9 @@
 
 #include "differences.h"
 #include "elastic.h"
+#include "spring_stiffness.h"
 #include "stiffness_elements.h"
+#include "turning.h"
 
 namespace tendril {
 namespace {
@@ -44,6 +46,12 @@ bool depends_on_state(const Model& model) {
   return false;
 }
 
+bool needs_differences(const Model& model) {
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_state() && !force->has_derivatives()) return true;
+  return false;
+}
+
 bool depends_on_time(const Model& model) {
   for (const Anchor& anchor : model.scene.anchors)
     if (anchor.motion) return true;
@@ -65,6 +73,24 @@ struct Connection {
   std::array<Vec3, 3> by;
 };
 
+/// The derivatives that forces give of their own, under the nodes that carry and feel them.
+template <int B>
+class OwnDerivatives : public LoadDerivatives {
+ public:
+  OwnDerivatives(const Model& model, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
+      : model_(model), by_x_(by_x), by_u_(by_u) {}
+  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override {
+    if (model_.feels[i]) by_x_.block(model_.carrier[i], model_.carrier[j], k);
+  }
+  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override {
+    if (model_.feels[i]) by_u_.block(model_.carrier[i], model_.carrier[j], k);
+  }
+
+ private:
+  const Model& model_;
+  BlockMatrix<B>&by_x_, &by_u_;
+};
+
 template <int B>
 class BlockSolver : public StiffSolver {
  public:
@@ -81,7 +107,7 @@ class BlockSolver : public StiffSolver {
         b_(4 * pattern_.size()),
         x_(4 * pattern_.size()) {
     if (rates_matter_) by_u_.emplace(pattern_, false);
-    if (rates_matter_) differences_.emplace(model_, pattern_, loaded_);
+    if (needs_differences(model_)) differences_.emplace(model_, pattern_);
     lay_out();
   }
 
@@ -96,9 +122,14 @@ class BlockSolver : public StiffSolver {
       if (resists(model_)) visit_resistance(model_, work_, *by_u_);
       // The rates of the frames are needed from here on.
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
-      add_carrying();
-      connect();
-      if (!loaded_) add_gyroscopic();
+      add_turning();
+    }
+    if (loaded_) {
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
+      const StateView seen = view(model_, state.time, work_);
+      OwnDerivatives<B> own(model_, by_x_, *by_u_);
+      for (const auto& force : model_.scene.forces)
+        if (force->depends_on_state()) force->add_derivatives(seen, own);
     }
     if (differences_) {
       const long cost = differences_->add(state, work_, by_x_, *by_u_);
@@ -177,8 +208,7 @@ class BlockSolver : public StiffSolver {
     place_x_[4 * k + c] = x;
     place_u_[4 * k + c] = u;
     mass_[4 * k + c] = mass;
-    // The differences see the damping; without them it stands by itself.
-    if (!loaded_) damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
+    damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
   }
 
   bool take_time(const State& state, const Eigen::VectorXd& rate) {
@@ -197,65 +227,39 @@ class BlockSolver : public StiffSolver {
   /// Whether what carries the node before, at or after i feels it.
   bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
 
-  template <class Add>
-  void for_pairs(std::size_t i, const Add& add) const {
+  /// Blocks by the vectors along the two edges of node i, as blocks by its three positions.
+  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockMatrix<B>& to) const {
     const auto nodes = around(i);
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
-        if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
-          add(nodes[a], nodes[b], static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
+    const auto add = [&](std::size_t a, std::size_t b, const Mat3& block) {
+      if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
+        to.block(nodes[a], nodes[b], block);
+    };
+    add(0, 0, k[0][0]);
+    add(0, 1, k[0][1] - k[0][0]);
+    add(0, 2, -k[0][1]);
+    add(1, 0, k[1][0] - k[0][0]);
+    add(1, 1, k[0][0] - k[0][1] - k[1][0] + k[1][1]);
+    add(1, 2, k[0][1] - k[1][1]);
+    add(2, 0, -k[1][0]);
+    add(2, 1, k[1][0] - k[1][1]);
+    add(2, 2, k[1][1]);
   }
 
-  static Mat3 cross_matrix(const Vec3& v) {
-    Mat3 m;
-    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-    return m;
-  }
-
-  /// The Hessian is that of E(p, theta), whose directors are carried along; the forces are its gradient with
-  /// directors that do not spin. At the reference the two agree, but not their derivatives: what is between
-  /// them is -1/2 dE/ds (t x dt).(dt'), antisymmetric. The workspace's g_spin is that of the springs.
-  void add_carrying() {
-    for (std::size_t i = 0; i < model_.nodes; ++i) {
-      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
-      const Eigen::Matrix<double, 3, 9> q = tangent_by_positions(model_, i, work_);
-      const double g_spin = gradient_[model_.v_begin() + model_.twist_index[i]];
-      const Eigen::Matrix<double, 9, 9> k =
-          -0.5 * g_spin * q.transpose() * cross_matrix(work_.frame.z[i]) * q;
-      for_pairs(i, [&](std::size_t row, std::size_t column, Eigen::Index r, Eigen::Index c) {
-        by_x_.block(row, column, Mat3(k.block<3, 3>(r, c)));
-      });
-    }
-  }
-
-  /// Q^T I w (t x Q v) by v and by w, Q the tangent's derivative by the positions.
-  void add_gyroscopic() {
-    for (std::size_t i = 0; i < model_.nodes; ++i) {
-      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
-      const Eigen::Matrix<double, 3, 9> q = tangent_by_positions(model_, i, work_);
-      const Vec3 t = work_.frame.z[i];
-      const double momentum = model_.inertia[i] * work_.spin[i];
-      const Eigen::Matrix<double, 9, 9> k = momentum * q.transpose() * cross_matrix(t) * q;
-      for_pairs(i, [&](std::size_t row, std::size_t column, Eigen::Index r, Eigen::Index c) {
-        by_u_->block(row, column, Mat3(k.block<3, 3>(r, c)));
-      });
-      const Eigen::Matrix<double, 9, 1> by_spin =
-          model_.inertia[i] * q.transpose() * t.cross(work_.t_rate[i]);
-      const auto nodes = around(i);
-      for (std::size_t a = 0; a < 3; ++a)
-        if (nodes[a] != EdgeStiffness::kNone && feels(i, a))
-          by_u_->column(nodes[a], i, Vec3(by_spin.segment<3>(static_cast<Eigen::Index>(3 * a))));
-    }
-  }
-
-  /// At the reference (t_s x t).t' / (1 + t_s.t) changes by 1/2 (t' x t).dt.
-  void connect() {
+  /// The workspace's g_spin is no longer that of the springs alone; the gradient's is.
+  void add_turning() {
     connections_.clear();
     for (std::size_t i = 0; i < model_.nodes; ++i) {
       if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
-      const Vec3 g = 0.5 * work_.t_rate[i].cross(work_.frame.z[i]);
-      const Eigen::Matrix<double, 9, 1> by = tangent_by_positions(model_, i, work_).transpose() * g;
-      connections_.push_back({i, around(i), {by.segment<3>(0), by.segment<3>(3), by.segment<3>(6)}});
+      const TurningTerms terms =
+          turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_);
+      add_by_nodes(i, terms.by_x, by_x_);
+      add_by_nodes(i, terms.by_v, *by_u_);
+      const auto nodes = around(i);
+      const Vec3 spin[3] = {-terms.by_spin[0], terms.by_spin[0] - terms.by_spin[1], terms.by_spin[1]};
+      for (std::size_t a = 0; a < 3; ++a)
+        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) by_u_->column(nodes[a], i, spin[a]);
+      connections_.push_back(
+          {i, nodes, {-terms.connection[0], terms.connection[0] - terms.connection[1], terms.connection[1]}});
     }
   }
 

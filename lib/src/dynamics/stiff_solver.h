@@ -16,10 +16,10 @@ namespace tendril {
 /// parents: O(n) time and memory. Without twist and loads that depend on the state everything is symmetric,
 /// and only half of it is kept.
 ///
-/// F_x and F_u of springs and of the gyroscopic force by velocities are exact, likewise C (the connection
-/// term). What is left (the gyroscopic force by positions, external forces that depend on the state) comes
-/// from differences of the equations without springs, coloured so that nodes that share no row share an
-/// evaluation. Left out is the change of the viscous forces' directions.
+/// Exact are the derivatives of the springs, of the gyroscopic force, of the connection term, and those that
+/// external forces give of their own; other external forces that depend on the state are differentiated by
+/// differences, coloured so that nodes that share no row share an evaluation. Left out is the change of the
+/// viscous forces' directions.
 class StiffSolver {
  public:
   virtual ~StiffSolver() = default;

@@ -9,25 +9,22 @@ namespace tendril {
 template <class Sink>
 void visit(const EdgeStiffness& e, double scale, Sink& sink) {
   for (std::size_t a = 0; a < 5; ++a) {
-    const auto at = static_cast<Eigen::Index>(3 * a);
     if (e.node[a] == EdgeStiffness::kNone) continue;
-    for (std::size_t b = 0; b < 5 && e.node_feels[a]; ++b)
-      if (e.node[b] != EdgeStiffness::kNone)
-        sink.block(e.node[a], e.node[b], Mat3(scale * e.k.block<3, 3>(at, static_cast<Eigen::Index>(3 * b))));
+    for (std::size_t b = a; b < 5; ++b) {
+      if (e.node[b] == EdgeStiffness::kNone) continue;
+      const Mat3 k = scale * e.k[a][b];
+      if (e.node_feels[a]) sink.block(e.node[a], e.node[b], k);
+      if (a < b && e.node_feels[b]) sink.block(e.node[b], e.node[a], Mat3(k.transpose()));
+    }
     for (std::size_t b = 0; b < 2; ++b) {
-      const Eigen::Index angle = EdgeStiffness::kAngles + static_cast<Eigen::Index>(b);
-      if (e.angle[b] == EdgeStiffness::kNone) continue;
-      if (e.node_feels[a]) sink.column(e.node[a], e.angle[b], Vec3(scale * e.k.block<3, 1>(at, angle)));
-      if (e.angle_feels[b])
-        sink.row(e.angle[b], e.node[a], Vec3(scale * e.k.block<1, 3>(angle, at).transpose()));
+      const Vec3 k = scale * e.by_angle[a][b];
+      if (e.node_feels[a]) sink.column(e.node[a], e.angle[b], k);
+      if (e.angle_feels[b]) sink.row(e.angle[b], e.node[a], k);
     }
   }
   for (std::size_t a = 0; a < 2; ++a)
     for (std::size_t b = 0; b < 2; ++b)
-      if (e.angle[a] != EdgeStiffness::kNone && e.angle[b] != EdgeStiffness::kNone && e.angle_feels[a])
-        sink.angles(e.angle[a], e.angle[b],
-                    scale * e.k(EdgeStiffness::kAngles + static_cast<Eigen::Index>(a),
-                                EdgeStiffness::kAngles + static_cast<Eigen::Index>(b)));
+      if (e.angle_feels[a]) sink.angles(e.angle[a], e.angle[b], scale * e.angles[a][b]);
 }
 
 /// Second derivatives by the vector from node i to the next.

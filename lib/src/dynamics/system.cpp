@@ -14,7 +14,9 @@ using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
 using Model = System::Model;
 
-StateView view(const Model& model, double t, Workspace& work) {
+}  // namespace
+
+StateView view(const System::Model& model, double t, System::Workspace& work) {
   for (std::size_t i = 0; i < model.nodes; ++i) {
     work.seen_p[i] = work.p[i];
     work.seen_v[i] = work.v[i];
@@ -24,13 +26,23 @@ StateView view(const Model& model, double t, Workspace& work) {
   return {t, work.seen_p, work.seen_v, work.seen_t, work.seen_spin, model.mass, model.width, model.rods};
 }
 
+namespace {
+
+Loads no_loads(Workspace& work) {
+  std::fill(work.load.begin(), work.load.end(), Vec3::Zero());
+  std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
+  return {work.load, work.torque};
+}
+
+bool is_gravity(const Force& force) {
+  return typeid(force) == typeid(Gravity);
+}
+
 /// Adds the external forces but gravity to the workspace's loads; returns the power of those without an
 /// energy.
 double add_external(const Model& model, double t, Workspace& work) {
-  std::fill(work.load.begin(), work.load.end(), Vec3::Zero());
-  std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
   const StateView state = view(model, t, work);
-  const Loads loads{work.load, work.torque};
+  const Loads loads = no_loads(work);
   for (const auto& force : model.scene.forces)
     if (!force->has_energy()) force->add(state, loads);
   double power = 0.0;
@@ -39,7 +51,7 @@ double add_external(const Model& model, double t, Workspace& work) {
     power += work.load[i].dot(work.seen_v[i]) + work.torque[i].dot(turning);
   }
   for (const auto& force : model.scene.forces)
-    if (force->has_energy() && typeid(*force) != typeid(Gravity)) force->add(state, loads);
+    if (force->has_energy() && !is_gravity(*force)) force->add(state, loads);
   return power;
 }
 
@@ -225,6 +237,26 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
   return all_finite(dy) ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
 }
 
+Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
+                                  Eigen::VectorXd& loads, Workspace& work) {
+  if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, work); !at.ok())
+    return at;
+  relax(work);
+  const StateView state = view(model, reference.time, work);
+  const Loads to = no_loads(work);
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_state() && !force->has_derivatives()) force->add(state, to);
+  add_torques(model, work);
+  pull_back(model, work);
+  loads.setZero(model.size());
+  for (std::size_t i = 0; i < model.nodes; ++i) {
+    loads.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i)) = work.force[i];
+    if (model.has_twist(i))
+      loads[model.spin_begin() + model.twist_index[i]] = work.torque[i].dot(work.seen_t[i]) - work.g_spin[i];
+  }
+  return {};
+}
+
 Evaluation System::derivative(const State& reference, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy,
                               Workspace& work) const {
   return rates(*model_, reference, t, y, true, dy, work);
@@ -235,8 +267,7 @@ Evaluation System::elastic_gradient(const State& reference, double t, const Eige
   const Model& model = *model_;
   if (const Evaluation at = kinematics(model, reference, t, y, Motion::places, work); !at.ok()) return at;
   if (const Evaluation at = elastic_energy(model, reference, work, energy); !at.ok()) return at;
-  std::fill(work.load.begin(), work.load.end(), Vec3::Zero());
-  std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
+  no_loads(work);
   pull_back(model, work);
   gradient.resize(model.v_begin() + static_cast<Eigen::Index>(model.twist_nodes));
   for (std::size_t i = 0; i < model.nodes; ++i) {
@@ -261,7 +292,7 @@ Energies System::energies(const State& state, Workspace& work) const {
   if (!model.loaded) return result;
   const StateView seen = view(model, state.time, work);
   for (const auto& force : model.scene.forces)
-    if (force->has_energy() && typeid(*force) != typeid(Gravity)) result.potential += force->energy(seen);
+    if (force->has_energy() && !is_gravity(*force)) result.potential += force->energy(seen);
   return result;
 }
 

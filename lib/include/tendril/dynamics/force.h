@@ -30,6 +30,15 @@ struct Loads {
   MutablePoints torque;
 };
 
+/// Where a force adds its derivatives: of the force on node i by the position and the velocity of node j of
+/// the same rod, at most two nodes away.
+class LoadDerivatives {
+ public:
+  virtual ~LoadDerivatives() = default;
+  virtual void add_by_position(std::size_t i, std::size_t j, const Mat3& k) = 0;
+  virtual void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) = 0;
+};
+
 /// An external force. Extension point: derive, and hand it to the system. It must be pure in the state it is
 /// shown (an adaptive step evaluates six stages and may throw them away), and safe to call from several
 /// threads.
@@ -51,6 +60,12 @@ class Force {
 
   /// False when the loads are the same whatever the state: implicit steps then need no derivatives of them.
   virtual bool depends_on_state() const { return true; }
+
+  /// True when add_derivatives gives all there are. Otherwise an implicit step takes differences: some fifty
+  /// calls of add(), in which a node is taken to feel up to its third neighbours.
+  virtual bool has_derivatives() const { return false; }
+  virtual void add_derivatives(const StateView&, LoadDerivatives&) const {}
+
   /// False when the loads are the same at all times.
   virtual bool depends_on_time() const { return true; }
 

@@ -44,9 +44,13 @@ class Wind : public Force {
  public:
   explicit Wind(const WindOptions& options);
   void add(const StateView& state, const Loads& loads) const override;
+  bool has_derivatives() const override { return true; }
+  void add_derivatives(const StateView& state, LoadDerivatives& to) const override;
   std::vector<double> breaks() const override { return options_.switched.breaks(); }
   /// Air velocity at a point and time.
   Vec3 velocity(const Vec3& x, double t) const;
+  /// And its derivative by x.
+  Mat3 velocity_gradient(const Vec3& x, double t) const;
 
  private:
   struct Wave {
@@ -89,6 +93,8 @@ class PullTowards : public Force {
   void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
+  bool has_derivatives() const override { return true; }
+  void add_derivatives(const StateView& state, LoadDerivatives& to) const override;
 
  private:
   std::size_t rod_, node_;
