@@ -12,9 +12,11 @@ MeshFollower::MeshFollower(const Binding& binding, std::size_t pair, MutablePoin
 }
 
 void MeshFollower::follow(double time, std::span<const CurvePair> pairs) {
-  if (pair_ >= pairs.size())
-    throw InvalidInput("curve-pair", std::to_string(pair_), "less than " + std::to_string(pairs.size()));
-  binding_.update(pairs[pair_], out_, threads_);
+  const std::size_t count = binding_.pair_count();
+  if (pair_ + count > pairs.size())
+    throw InvalidInput("curve-pair", std::to_string(pair_ + count - 1),
+                       "less than " + std::to_string(pairs.size()));
+  binding_.update(pairs.subspan(pair_, count), out_, threads_);
   time_ = time;
   ++updates_;
 }

@@ -2,6 +2,7 @@
 #include <tendril/base/error.h>
 #include <tendril/bind/mesh_follower.h>
 #include <tendril/bind/polygon_mesh.h>
+#include <tendril/curve/closest_point.h>
 
 #include "support/pairs.h"
 #include "support/random.h"

@@ -5,6 +5,8 @@
 #include <tendril/bind/binding.h>
 #include <tendril/dynamics/follower.h>
 
+#include <map>
+
 /// The door for meshes: any model of CGAL's FaceGraph (Surface_mesh, Polyhedron_3, OpenMesh through CGAL's
 /// adaptor, a user's own) with a vertex point map whose value has operator[] and a constructor from three
 /// numbers. Only BGL and property maps are used, no kernel and no GPL package.
@@ -25,6 +27,23 @@ std::vector<Vec3> points_of(const Graph& graph, PointMap map) {
 template <class Graph>
 std::vector<Vec3> points_of(const Graph& graph) {
   return points_of(graph, get(CGAL::vertex_point, graph));
+}
+
+/// The graph as flat arrays, points in the order of vertices(graph).
+template <class Graph, class PointMap>
+PolygonMesh mesh_of(const Graph& graph, PointMap map) {
+  using Vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
+  PolygonMesh mesh;
+  mesh.points = points_of(graph, map);
+  std::map<Vertex, std::uint32_t> number;
+  for (const Vertex vertex : CGAL::make_range(vertices(graph)))
+    number.emplace(vertex, static_cast<std::uint32_t>(number.size()));
+  for (const auto face : CGAL::make_range(faces(graph))) {
+    for (const Vertex vertex : CGAL::vertices_around_face(halfedge(face, graph), graph))
+      mesh.corners.push_back(number.at(vertex));
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  }
+  return mesh;
 }
 
 /// Writes positions back, in the same order. The graph must have as many vertices as there are points.
@@ -56,11 +75,21 @@ class FaceGraphFollower : public Follower {
         pair_(pair),
         threads_(threads) {}
 
+  /// Bound as the options say, to as many curve-pairs as `rest` holds; `pair` is the first of them.
+  FaceGraphFollower(Graph& graph, PointMap map, std::span<const CurvePair> rest, const BindOptions& options,
+                    std::size_t pair = 0)
+      : graph_(graph),
+        map_(map),
+        points_(points_of(graph, map)),
+        binding_(rest, mesh_of(graph, map), options),
+        pair_(pair),
+        threads_(options.threads) {}
+
   FaceGraphFollower(Graph& graph, const CurvePair& rest, std::size_t pair = 0, int threads = 1)
       : FaceGraphFollower(graph, get(CGAL::vertex_point, graph), rest, pair, threads) {}
 
   void follow(double, std::span<const CurvePair> pairs) override {
-    binding_.update(pairs[pair_], points_, threads_);
+    binding_.update(pairs.subspan(pair_, binding_.pair_count()), points_, threads_);
     assign_points(graph_, map_, points_);
   }
   const Binding& binding() const { return binding_; }

@@ -5,11 +5,11 @@
 
 namespace tendril::bind {
 
-/// Keeps points on their moving curve-pair: every call of follow updates `out` through the binding.
+/// Keeps points on their moving curve-pairs: every call of follow updates `out` through the binding.
 class MeshFollower : public Follower {
  public:
   /// \param binding  kept by reference
-  /// \param pair     index of the curve-pair among those of the simulation
+  /// \param pair     index of the binding's first curve-pair among those of the simulation; its others follow
   /// \param out      binding.size() points, kept by reference
   MeshFollower(const Binding& binding, std::size_t pair, MutablePoints out, int threads = 1);
 

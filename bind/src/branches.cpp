@@ -1,0 +1,159 @@
+#include "branches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel.h"
+#include "soft_axis.h"
+
+namespace tendril::bind {
+namespace {
+
+/// What may count at all is so much farther than the nearest, in units of `band`.
+constexpr double kReach = 2.0;
+
+using CandidateLists = std::vector<std::vector<Candidate>>;
+
+std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Vec3& p, double band,
+                                  std::vector<double>& hints) {
+  std::vector<double> nearest(projectors.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < projectors.size() && projectors.size() > 1; ++k) {
+    const Projection at = projectors[k].nearest(p, hints[k]);
+    nearest[k] = at.distance;
+    hints[k] = at.t;
+    least = std::min(least, at.distance);
+  }
+  std::vector<Candidate> out;
+  for (std::size_t k = 0; k < projectors.size(); ++k) {
+    const double reach = 1.0 + kReach * band;
+    double within = kReach * band;
+    if (projectors.size() > 1) {
+      if (nearest[k] > reach * least) continue;
+      within = nearest[k] > 0.0 ? std::max(0.0, reach * least / nearest[k] - 1.0) : 0.0;
+    }
+    for (const LocalMinimum& m : projectors[k].all(p, within, hints[k]))
+      out.push_back({static_cast<std::uint32_t>(k), m});
+    if (projectors.size() == 1) hints[0] = out.front().at.t;
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.at.distance < b.at.distance; });
+  return out;
+}
+
+/// Whether two projections of neighbours belong to one branch: from their middle, no hump of the distance
+/// lies between them.
+bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle, const Candidate& a,
+                 const Candidate& b) {
+  if (a.pair != b.pair) return false;
+  const double to_a = (a.at.point - middle).norm(), to_b = (b.at.point - middle).norm();
+  const double most = std::max(to_a, to_b) * (1.0 + 1e-9);
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const double t = a.at.t + part * (b.at.t - a.at.t);
+    if ((projectors[a.pair].curve().value(t) - middle).norm() > most) return false;
+  }
+  return true;
+}
+
+/// Closes the projections of a point that no way over the mesh, through the same branch of projections, joins
+/// to a point where the branch is the nearest.
+class Gate {
+ public:
+  Gate(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, CandidateLists& lists)
+      : projectors_(projectors), mesh_(mesh), lists_(lists), neighbours_(mesh) {}
+
+  /// Points with a closed projection, ascending.
+  std::vector<std::uint32_t> run() {
+    for (auto& list : lists_)
+      for (Candidate& c : list) c.open = false;
+    for (std::uint32_t i = 0; i < lists_.size(); ++i) enter(i, 0);
+    while (!waiting_.empty()) {
+      const Node node = waiting_.back();
+      waiting_.pop_back();
+      for (const std::uint32_t next : neighbours_.of(node.point)) spread(node, next);
+    }
+    std::vector<std::uint32_t> gated;
+    for (std::uint32_t i = 0; i < lists_.size(); ++i)
+      if (std::any_of(lists_[i].begin(), lists_[i].end(), [](const Candidate& c) { return !c.open; }))
+        gated.push_back(i);
+    return gated;
+  }
+
+ private:
+  struct Node {
+    std::uint32_t point;
+    std::size_t which;
+  };
+
+  void enter(std::uint32_t point, std::size_t which) {
+    if (lists_[point][which].open) return;
+    lists_[point][which].open = true;
+    waiting_.push_back({point, which});
+  }
+  void spread(const Node& node, std::uint32_t next) {
+    for (std::size_t k = 1; k < lists_[next].size(); ++k)
+      if (!lists_[next][k].open &&
+          same_branch(projectors_, 0.5 * (mesh_.points[node.point] + mesh_.points[next]),
+                      lists_[node.point][node.which], lists_[next][k]))
+        enter(next, k);
+  }
+
+  std::span<const CurveProjector> projectors_;
+  const PolygonMesh& mesh_;
+  CandidateLists& lists_;
+  Neighbours neighbours_;
+  std::vector<Node> waiting_;
+};
+
+}  // namespace
+
+Neighbours::Neighbours(const PolygonMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
+      edges.push_back({a, b});
+      edges.push_back({b, a});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  begin.assign(mesh.points.size() + 1, 0);
+  for (const auto& edge : edges) {
+    ++begin[edge[0] + 1];
+    to.push_back(edge[1]);
+  }
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+}
+
+Branches find_branches(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band,
+                       int threads) {
+  const std::size_t count = mesh.points.size();
+  CandidateLists lists(count);
+  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> hints;
+    for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
+    for (std::size_t i = begin; i < end; ++i) lists[i] = candidates(projectors, mesh.points[i], band, hints);
+  });
+  Branches branches;
+  branches.gated = Gate(projectors, mesh, lists).run();
+  branches.influences.resize(count);
+  const SoftAxis axis(projectors);
+  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double share = axis.ambiguity(mesh.points[i], lists[i], band);
+      if (share > 0.0) branches.influences[i] = axis.influences(mesh.points[i], lists[i], kReach * band);
+      for (Influence& one : branches.influences[i]) one.weight *= share;
+    }
+  });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!branches.influences[i].empty()) branches.ambiguous.push_back(i);
+    branches.nearest.push_back(lists[i].front());
+    branches.clusters +=
+        std::any_of(lists[i].begin(), lists[i].end(), [](const Candidate& c) { return c.at.cluster; });
+  }
+  return branches;
+}
+
+}  // namespace tendril::bind

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <tendril/bind/polygon_mesh.h>
+#include <tendril/curve/closest_point.h>
+
+#include <optional>
+
+/// The projections that bear on each point of a mesh, and the weights they come to.
+namespace tendril::bind {
+
+struct Candidate {
+  std::uint32_t pair;
+  LocalMinimum at;
+  bool open = true;  ///< not gated
+};
+
+/// A place of an axis that a point is bound to.
+struct Influence {
+  std::uint32_t pair;
+  double t, weight;
+};
+
+/// Neighbours by an edge of a face, ascending, of point i: `to[begin[i] .. begin[i + 1])`.
+struct Neighbours {
+  std::vector<std::uint32_t> begin, to;
+
+  explicit Neighbours(const PolygonMesh& mesh);
+  std::span<const std::uint32_t> of(std::size_t point) const {
+    return std::span(to).subspan(begin[point], begin[point + 1] - begin[point]);
+  }
+};
+
+struct Branches {
+  std::vector<Candidate> nearest;                  ///< per point, of those not gated
+  std::vector<std::vector<Influence>> influences;  ///< per point, none where the nearest alone counts
+  std::vector<std::uint32_t> ambiguous, gated;
+  std::size_t clusters = 0;
+};
+
+/// \param band  see BindOptions
+Branches find_branches(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band,
+                       int threads);
+
+}  // namespace tendril::bind

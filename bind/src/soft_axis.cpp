@@ -1,0 +1,168 @@
+#include "soft_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::bind {
+namespace {
+
+constexpr int kNodesPerSpan = 2, kLooksPerSpan = 16;
+constexpr double kSamples = 12.0;  ///< per distance to the curve
+constexpr double kFaint = 1e-3;    ///< weight that fades to nothing
+
+/// 1 up to `from`, 0 from `to` on, with a continuous derivative.
+double fall(double x, double from, double to) {
+  const double s = std::clamp((to - x) / (to - from), 0.0, 1.0);
+  return s * s * (3.0 - 2.0 * s);
+}
+
+/// Between which two of an ascending list t lies, and where.
+struct Place {
+  std::size_t right;
+  double part;
+};
+
+Place place(const std::vector<double>& list, double t) {
+  const auto found = std::upper_bound(list.begin(), list.end(), t) - list.begin();
+  const auto right = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(found, 1, static_cast<std::ptrdiff_t>(list.size()) - 1));
+  return {right, (t - list[right - 1]) / (list[right] - list[right - 1])};
+}
+
+double largest_speed(const BSpline& curve) {
+  double speed = 0.0;
+  for (const BezierPiece& piece : curve.bezier_pieces())
+    for (std::size_t j = 1; j < piece.points.size(); ++j)
+      speed = std::max(
+          speed, curve.degree() * (piece.points[j] - piece.points[j - 1]).norm() / (piece.end - piece.begin));
+  return speed;
+}
+
+/// Weights that sum to 1; small ones fade out instead of being cut off.
+std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
+  for (Influence& one : all) one.weight = std::max(0.0, one.weight / sum - kFaint);
+  std::erase_if(all, [](const Influence& one) { return !(one.weight > 0.0); });
+  double rest = 0.0;
+  for (const Influence& one : all) rest += one.weight;
+  for (Influence& one : all) one.weight /= rest;
+  return all;
+}
+
+}  // namespace
+
+SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
+  for (const CurveProjector& projector : projectors) {
+    const BSpline& curve = projector.curve();
+    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}};
+    const auto look = [&](double t) {
+      const Vec3 point = curve.value(t);
+      one.lengths.push_back(one.points.empty() ? 0.0
+                                               : one.lengths.back() + (point - one.points.back()).norm());
+      one.parameters.push_back(t);
+      one.points.push_back(point);
+      if (one.points.size() % (kLooksPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
+    };
+    look(curve.knots().start());
+    for (const BezierPiece& piece : curve.bezier_pieces())
+      for (int k = 1; k <= kLooksPerSpan; ++k)
+        look(k == kLooksPerSpan ? piece.end : piece.begin + (piece.end - piece.begin) * k / kLooksPerSpan);
+    curves_.push_back(std::move(one));
+  }
+}
+
+/// Samples at multiples of a power of two, so that they do not move with p, marching both ways from each
+/// minimum to where the weight ends.
+std::vector<SoftAxis::Sample> SoftAxis::samples(const Curve& curve, const Vec3& p,
+                                                std::span<const double> minima, double nearest,
+                                                double width) const {
+  const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
+  const double wanted = nearest / (kSamples * curve.speed);
+  const double step = std::exp2(std::floor(std::log2(std::max(wanted, 1e-6 * (end - start)))));
+  std::vector<Sample> out;
+  const auto sample = [&](double index) {
+    const double t = std::clamp(index * step, start, end);
+    const Vec3 c = curve.curve->value(t);
+    return Sample{t, ((c - p).norm() - nearest) / (width * nearest), c};
+  };
+  double done = std::floor(start / step) - 1.0;
+  const double last = std::ceil(end / step);
+  for (const double t : minima) {
+    const double from = std::floor(t / step);
+    if (from < done) continue;
+    std::vector<Sample> back;
+    for (double k = from; k > done && k * step > start - step; --k) {
+      back.push_back(sample(k));
+      if (back.back().excess >= 1.0) break;
+    }
+    out.insert(out.end(), back.rbegin(), back.rend());
+    for (done = from + 1.0; done <= last; ++done) {
+      out.push_back(sample(done));
+      if (out.back().excess >= 1.0) break;
+    }
+  }
+  return out;
+}
+
+void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight) {
+  weight.assign(curve.nodes.size(), 0.0);
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    if (along[k].excess >= 1.0) continue;
+    const Vec3& before = along[k > 0 ? k - 1 : k].point;
+    const Vec3& after = along[k + 1 < along.size() ? k + 1 : k].point;
+    const double rest = 1.0 - std::max(0.0, along[k].excess);
+    const double w = rest * rest * rest * (after - before).norm();
+    const Place at = place(curve.nodes, along[k].t);
+    weight[at.right - 1] += (1.0 - at.part) * w;
+    weight[at.right] += at.part * w;
+  }
+}
+
+std::vector<Influence> SoftAxis::influences(const Vec3& p, std::span<const Candidate> all,
+                                            double width) const {
+  std::vector<Influence> out;
+  std::vector<double> minima, weight;
+  double sum = 0.0;
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    const Curve& curve = curves_[pair];
+    minima.clear();
+    for (const Candidate& c : all)
+      if (c.pair == pair && c.open) minima.push_back(c.at.t);
+    std::sort(minima.begin(), minima.end());
+    lay_down(curve, samples(curve, p, minima, all.front().at.distance, width), weight);
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      sum += weight[k];
+      if (weight[k] > 0.0) out.push_back({pair, curve.nodes[k], weight[k]});
+    }
+  }
+  return sum > 0.0 ? normalized(std::move(out), sum) : out;
+}
+
+double SoftAxis::ambiguity(const Vec3& p, std::span<const Candidate> all, double band) const {
+  const Candidate& nearest = all.front();
+  const double distance2 = (p - nearest.at.point).squaredNorm(), distance = std::sqrt(distance2);
+  const double here = curves_[nearest.pair].length(nearest.at.t);
+  double lack = nearest.at.strength / band;
+  const auto look = [&](bool same, double length, const Vec3& place) {
+    const double apart2 = (place - nearest.at.point).squaredNorm();
+    // Too near to be told from the nearest itself, whose curvature has been looked at.
+    if (!(apart2 > 1e-6 * distance2)) return;
+    const double apart = std::sqrt(apart2), strands = std::max(1.0, 2.0 * distance / apart);
+    const double excess = (place - p).squaredNorm() - distance2;
+    if (excess >= lack * band * strands * apart2) return;
+    const double round = same ? std::abs(length - here) / (2.0 * apart) : strands;
+    lack = std::min(lack, excess / (apart2 * band * std::clamp(round, 1.0, strands)));
+  };
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
+    for (std::size_t k = 0; k < curves_[pair].points.size(); ++k)
+      look(pair == nearest.pair, curves_[pair].lengths[k], curves_[pair].points[k]);
+  for (const Candidate& c : all.subspan(1))
+    look(c.pair == nearest.pair, curves_[c.pair].length(c.at.t), c.at.point);
+  return fall(lack, 0.08, 1.0);
+}
+
+double SoftAxis::Curve::length(double t) const {
+  const Place at = place(parameters, t);
+  return lengths[at.right - 1] + at.part * (lengths[at.right] - lengths[at.right - 1]);
+}
+
+}  // namespace tendril::bind
