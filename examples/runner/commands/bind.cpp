@@ -1,0 +1,193 @@
+#include "commands.h"
+#include "draw/drawing.h"
+#include "read/curve_reader.h"
+#include "write/json_output.h"
+
+#include <tendril/base/file.h>
+#include <tendril/bind/import.h>
+#include <tendril/bind/judge.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace tendril::runner {
+namespace {
+
+struct Options {
+  std::string mesh, picture;
+  std::vector<std::string> axes, poses;
+  bool nearest = false, json = false;
+  double band = bind::BindOptions{}.band;
+  int refinements = bind::JudgeOptions{}.refinements, threads = 0;
+};
+
+struct Axes {
+  std::vector<CurvePair> rest, posed;
+};
+
+Axes read_axes(const Options& options) {
+  if (!options.poses.empty() && options.poses.size() != options.axes.size())
+    throw InvalidInput("--pose", std::to_string(options.poses.size()) + " files",
+                       std::to_string(options.axes.size()) + ", one for each --axis");
+  Axes axes;
+  for (std::size_t i = 0; i < options.axes.size(); ++i) {
+    const CurveFile rest = read_curve(options.axes[i]);
+    axes.rest.push_back(rest.pair);
+    if (options.poses.empty()) continue;
+    const CurveFile posed = read_curve(options.poses[i], &rest);
+    if (!(posed.pair.knots() == rest.pair.knots()))
+      throw InvalidInput(options.poses[i] + "#",
+                         "its knots or degree differ from those of " + options.axes[i], "the same");
+    axes.posed.push_back(posed.pair);
+  }
+  return axes;
+}
+
+OrderedJson to_json(const bind::BindReport& report) {
+  return {{"rest_error", report.rest_error}, {"largest_gap", report.largest_gap},
+          {"places", report.places},         {"beyond_ends", report.beyond_ends},
+          {"clusters", report.clusters},     {"ambiguous", report.ambiguous},
+          {"gated", report.gated},           {"past_focus", report.past_focus},
+          {"degenerate", report.degenerate}};
+}
+
+OrderedJson to_json(const bind::JudgeReport& report) {
+  OrderedJson levels = OrderedJson::array();
+  for (const bind::JudgeLevel& level : report.levels)
+    levels.push_back({{"points", level.points},
+                      {"edges", level.edges},
+                      {"faces", level.faces},
+                      {"quantiles", level.quantile},
+                      {"max", level.max},
+                      {"beyond", level.beyond},
+                      {"flipped", level.flipped},
+                      {"rest_error", level.rest_error},
+                      {"ambiguous", level.ambiguous}});
+  OrderedJson worst = OrderedJson::array();
+  for (const bind::WorstEdge& edge : report.worst)
+    worst.push_back({{"points", {edge.a, edge.b}}, {"stretch", edge.stretch}});
+  return {{"verdict", report.verdict == bind::TearVerdict::tear ? "tear" : "smooth"},
+          {"growth", report.growth},
+          {"growth_of_max",
+           std::isfinite(report.growth_of_max) ? OrderedJson(report.growth_of_max) : OrderedJson()},
+          {"exponent", report.exponent},
+          {"levels", levels},
+          {"worst", worst}};
+}
+
+void print_row(const char* name, const bind::JudgeReport& report) {
+  std::printf("%-11s %s\n", name, report.verdict == bind::TearVerdict::tear ? "tear" : "smooth");
+  std::printf("  %10s %8s %8s %8s %8s %8s %8s %8s %9s %8s\n", "edges", "p50", "p90", "p99", "p99.9", "p99.99",
+              "max", "> limit", "flipped", "rest");
+  for (const bind::JudgeLevel& level : report.levels) {
+    std::printf("  %10zu", level.edges);
+    for (const double q : level.quantile) std::printf(" %8.3g", q);
+    std::printf(" %8.3g %8zu %9zu %8.1e\n", level.max, level.beyond, level.flipped, level.rest_error);
+  }
+}
+
+/// Grey where nothing is stretched, over yellow to red at twenty times and more.
+bind::Color heat(double stretch) {
+  const double s = std::clamp(std::log(std::max(1.0, stretch)) / std::log(20.0), 0.0, 1.0);
+  const auto mix = [](double a, double b, double part) {
+    return static_cast<std::uint8_t>(a + part * (b - a));
+  };
+  if (s < 0.5) return {mix(170, 240, 2 * s), mix(172, 200, 2 * s), mix(178, 60, 2 * s), 255};
+  return {mix(240, 200, 2 * s - 1), mix(200, 30, 2 * s - 1), mix(60, 30, 2 * s - 1), 255};
+}
+
+void color_by_stretch(bind::PolygonMesh& mesh, Points rest) {
+  std::vector<double> stretch(mesh.points.size(), 1.0);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
+      const double before = (rest[a] - rest[b]).norm();
+      const double now = before > 0.0 ? (mesh.points[a] - mesh.points[b]).norm() / before : 1.0;
+      stretch[a] = std::max(stretch[a], now);
+      stretch[b] = std::max(stretch[b], now);
+    }
+  }
+  mesh.point_colors.clear();
+  for (const double s : stretch) mesh.point_colors.push_back(heat(s));
+}
+
+Picture picture_of(const bind::PolygonMesh& mesh, const std::vector<CurvePair>& axes, int threads) {
+  const ViewOptions view;
+  CameraFit fit(view);
+  fit.include(mesh.points);
+  for (const CurvePair& pair : axes) fit.include(pair.primary().control_points());
+  Drawing drawing{&mesh, {}, {}};
+  for (const CurvePair& pair : axes)
+    for (Strand& strand : axis_strands(pair, {}, 0.002 * fit.camera().size)) drawing.over.push_back(strand);
+  return draw(drawing, fit.camera(), view, threads);
+}
+
+/// The mesh at rest with its ambiguous points in blue, and posed with its edges' stretch in colour.
+void draw_judged(const Options& options, const bind::TearJudge& judge, const Axes& axes, int threads) {
+  bind::PolygonMesh mesh = judge.mesh();
+  mesh.point_colors.assign(mesh.points.size(), bind::Color{200, 200, 196, 255});
+  for (const std::uint32_t i : judge.binding().report().ambiguous)
+    mesh.point_colors[i] = bind::Color{70, 120, 210, 255};
+  std::vector<Picture> panels{picture_of(mesh, axes.rest, threads)};
+  if (!axes.posed.empty()) {
+    judge.binding().update(axes.posed, mesh.points, threads);
+    color_by_stretch(mesh, judge.mesh().points);
+    panels.push_back(picture_of(mesh, axes.posed, threads));
+  }
+  const std::vector<std::string> captions(panels.size());
+  write_file_whole(options.picture, png_bytes(contact_sheet(panels, captions, 2)));
+}
+
+int judge(const Options& options) {
+  const int threads = thread_count(options.threads);
+  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const Axes axes = read_axes(options);
+  bind::BindOptions how{bind::BindMode::continuous, options.band, threads};
+  if (options.nearest) how.mode = bind::BindMode::nearest;
+  const bind::Binding binding(axes.rest, mesh, how);
+  OrderedJson out{
+      {"mesh", options.mesh}, {"points", mesh.points.size()}, {"binding", to_json(binding.report())}};
+  if (!options.json)
+    std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu places, rest error %.1e\n",
+                options.mesh.c_str(), mesh.points.size(), binding.report().ambiguous.size(),
+                binding.report().gated.size(), binding.report().places, binding.report().rest_error);
+  bind::TearVerdict verdict = bind::TearVerdict::smooth;
+  if (!axes.posed.empty() || !options.picture.empty()) {
+    bind::JudgeOptions judging;
+    judging.refinements = options.refinements;
+    const bind::TearJudge judged(axes.rest, mesh, how, judging);
+    if (!options.picture.empty()) draw_judged(options, judged, axes, threads);
+    if (!axes.posed.empty()) {
+      const bind::JudgeReport report = judged.judge(axes.posed);
+      verdict = report.verdict;
+      out["judge"] = to_json(report);
+      if (!options.json) print_row(options.nearest ? "nearest" : "continuous", report);
+    }
+  }
+  if (options.json) print(out);
+  return verdict == bind::TearVerdict::smooth ? kDone : kNoSuccess;
+}
+
+}  // namespace
+
+Command bind_command(CLI::App& parent) {
+  auto* app =
+      parent.add_subcommand("bind", "Binds a mesh to axes and judges by refinement whether a pose tears it");
+  const auto options = std::make_shared<Options>();
+  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("--axis", options->axes, "curve file (JSON) at rest; may be given several times")
+      ->required();
+  app->add_option("--pose", options->poses, "curve file (JSON) of the posed axis, one for each --axis");
+  app->add_option("--band", options->band, "width of transitions, in distances to the axis")
+      ->capture_default_str();
+  app->add_flag("--nearest", options->nearest, "bind each point to its nearest projection alone");
+  app->add_option("--refinements", options->refinements, "splits to judge by, 1 to 4")->capture_default_str();
+  app->add_option("--picture", options->picture, "PNG file: ambiguous points at rest, stretch in the pose");
+  app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
+  app->add_flag("--json", options->json, "print JSON, with the ids of all that is odd");
+  return {app, [options] { return judge(*options); }};
+}
+
+}  // namespace tendril::runner
