@@ -4,6 +4,7 @@
 #include <tendril/dynamics/simulation.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -16,8 +17,9 @@ namespace {
 /// What a child process reports of one case.
 struct Growth {
   bool available = false;
-  double seconds = 0.0;  ///< a node and step
-  double bytes = 0.0;    ///< a node, at the peak
+  double seconds = 0.0;   ///< a node and step
+  double bytes = 0.0;     ///< a node, at the peak
+  char reason[128] = "";  ///< why it is not available
 };
 
 double resident_bytes() {
@@ -32,7 +34,7 @@ double seconds_per_node_step(const Problem& problem, Method method) {
   const double nodes = static_cast<double>(problem.system.node_count());
   const double h =
       method == Method::rodas ? 1e-3 : 0.2 / problem.system.largest_frequency(problem.start, 16, *work);
-  const int steps = std::max(2, static_cast<int>((method == Method::rodas ? 4e4 : 2e5) / nodes));
+  const int steps = std::clamp(static_cast<int>((method == Method::rodas ? 4e4 : 2e5) / nodes), 2, 100);
   const std::unique_ptr<Stepper> stepper = make_stepper(method, problem.system);
   const double seconds = fastest(3, [&] {
     State state = problem.start;
@@ -60,7 +62,8 @@ Growth measure(const Make& make, Method method) {
       out.bytes = (1024.0 * static_cast<double>(usage.ru_maxrss) - before) /
                   static_cast<double>(problem.system.node_count());
       out.available = true;
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      std::snprintf(out.reason, sizeof out.reason, "%s", error.what());
     }
     const bool told = write(ends[1], &out, sizeof out) == sizeof out;
     _exit(told ? 0 : 1);
@@ -76,8 +79,8 @@ Growth measure(const Make& make, Method method) {
 void add(Table& table, OrderedJson& out, const std::string& shape, Method method, const Growth& growth) {
   const char* name = tendril::to_string(method);
   if (!growth.available) {
-    table.row({shape, name, "not available", ""});
-    out.push_back({{"shape", shape}, {"method", name}, {"available", false}});
+    table.row({shape, name, "not available", growth.reason});
+    out.push_back({{"shape", shape}, {"method", name}, {"available", false}, {"reason", growth.reason}});
     return;
   }
   table.row({shape, name, text("%.0f", 1e9 * growth.seconds), text("%.0f", growth.bytes)});
