@@ -1,5 +1,8 @@
 #include <tendril/dynamics/cash_karp.h>
 
+#include "combine.h"
+#include "elastic.h"
+
 namespace tendril {
 
 CashKarp::CashKarp(const System& system) : system_(system), work_(system.make_workspace()) {}
@@ -8,21 +11,28 @@ Evaluation CashKarp::step(const State& state, double h, Eigen::VectorXd& y, Eige
   using T = CashKarpTableau;
   for (std::size_t s = 0; s < k_.size(); ++s) {
     if (s == 0 && first_known_) continue;
-    stage_ = state.y;
+    const Eigen::VectorXd& at_stage = s == 0 ? state.y : stage_;
+    Term terms[5];
+    std::size_t count = 0;
     for (std::size_t j = 0; j < s; ++j)
-      if (T::b[s][j] != 0.0) stage_.noalias() += (h * T::b[s][j]) * k_[j];
+      if (T::b[s][j] != 0.0) terms[count++] = {h * T::b[s][j], &k_[j]};
+    if (s > 0) combine(&state.y, terms, count, stage_);
     ++evaluations_;
-    const Evaluation at = system_.derivative(state, state.time + T::a[s] * h, stage_, k_[s], *work_);
+    const Evaluation at = system_.derivative(state, state.time + T::a[s] * h, at_stage, k_[s], *work_);
     if (!at.ok()) return at;
     if (s == 0) first_known_ = true;
   }
-  y = state.y;
-  error.setZero(state.y.size());
+  Term solution[6];
+  Term difference[6];
+  std::size_t of_solution = 0;
+  std::size_t of_difference = 0;
   for (std::size_t s = 0; s < k_.size(); ++s) {
-    if (T::c[s] != 0.0) y.noalias() += (h * T::c[s]) * k_[s];
-    if (T::c[s] != T::c_star[s]) error.noalias() += (h * (T::c[s] - T::c_star[s])) * k_[s];
+    if (T::c[s] != 0.0) solution[of_solution++] = {h * T::c[s], &k_[s]};
+    if (T::c[s] != T::c_star[s]) difference[of_difference++] = {h * (T::c[s] - T::c_star[s]), &k_[s]};
   }
-  return y.allFinite() && error.allFinite() ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
+  combine(&state.y, solution, of_solution, y);
+  combine(nullptr, difference, of_difference, error);
+  return all_finite(y) && all_finite(error) ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
 }
 
 Evaluation CashKarp::advance(State& state, double h) {

@@ -9,8 +9,9 @@
 namespace tendril {
 namespace {
 
-// A step of RODAS costs about as much as this many of Cash-Karp, with and without twist.
-constexpr double kImplicitCost = 12.0;
+// A step of RODAS costs about as much as this many of Cash-Karp.
+constexpr double kImplicitCost = 4.5;
+constexpr double kImplicitCostWithTwist = 12.0;
 // No change back and forth: explicit steps must be too dear, or cheap enough, by this factor.
 constexpr double kMargin = 2.0;
 constexpr long kExplicitInterval = 64;  // accepted steps between looks at the choice
@@ -40,9 +41,10 @@ void Controller::choose() {
     return sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ",
                     report_.guard_step);
   };
-  if (!embedded_->stiff() && (ratio > kMargin * kImplicitCost || !explicit_fits()))
+  const double cost = system_.twist_count() > 0 ? kImplicitCostWithTwist : kImplicitCost;
+  if (!embedded_->stiff() && (ratio > kMargin * cost || !explicit_fits()))
     take(std::make_unique<Rodas>(system_), numbers());
-  else if (embedded_->stiff() && ratio < kImplicitCost / kMargin && explicit_fits())
+  else if (embedded_->stiff() && ratio < cost / kMargin && explicit_fits())
     take(std::make_unique<CashKarp>(system_), numbers());
   else if (first)
     report_.switches.push_back({state_.time, report_.method, numbers()});

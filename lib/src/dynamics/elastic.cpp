@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "lanes.h"
+#include "column_access.h"
 
 namespace tendril {
 namespace {
@@ -11,27 +11,13 @@ namespace {
 using Workspace = System::Workspace;
 using Model = System::Model;
 using Segment = System::Model::Segment;
+using lanes::Reader;
 using lanes::V3;
+using lanes::Writer;
 
 /// What a loop over springs does beside the gradient.
 struct Wanted {
   bool viscous, third, energy;
-};
-
-/// Raw columns of a loop, so that the compiler knows they do not overlap.
-struct Reader {
-  explicit Reader(const Columns3& c) : x(c.x.data()), y(c.y.data()), z(c.z.data()) {}
-  const double* __restrict x, * __restrict y, * __restrict z;
-  TENDRIL_INLINE V3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
-struct Writer {
-  explicit Writer(Columns3& c) : x(c.x.data()), y(c.y.data()), z(c.z.data()) {}
-  double* __restrict x, * __restrict y, * __restrict z;
-  TENDRIL_INLINE void put(std::size_t i, const V3& v) const {
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
-  }
 };
 
 /// One edge at one node: the edge's components in the node frame, stiffness and rest, and what comes of it.
@@ -306,62 +292,6 @@ double resist_stretch(const Model& model, Workspace& work) {
   return heat;
 }
 
-/// The part of a tangent's gradient that its edges feel.
-TENDRIL_LANES void through_tangents(const Segment& segment, Workspace& work) {
-  const Reader t(work.frame.z), g(work.g_tangent);
-  const Writer to(work.g_bisector);
-  const double* __restrict inverse = work.inverse_bisector.data();
-  TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
-    const V3 gi = g.at(i);
-    const V3 ti = t.at(i);
-    to.put(i, inverse[i] * (gi - lanes::dot(gi, ti) * ti));
-  }
-}
-
-TENDRIL_LANES void through_edges(std::size_t nodes, Workspace& work) {
-  const Reader e(work.e), before(work.g_before), after(work.g_after), bisector(work.g_bisector);
-  const Writer to(work.edge_force);
-  const double* __restrict g_length = work.g_length.data(), * __restrict inverse = work.inverse_length.data();
-  TENDRIL_LOOP
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const V3 g = (after.at(i) + before.at(i + 1)) + (bisector.at(i) + bisector.at(i + 1));
-    const V3 ei = e.at(i);
-    const double along = g_length[i] - inverse[i] * lanes::dot(ei, g);
-    to.put(i, inverse[i] * g + along * ei);
-  }
-}
-
-TENDRIL_LANES void to_masses(std::size_t nodes, Workspace& work) {
-  const Reader from(work.edge_force);
-  const Writer to(work.force);
-  TENDRIL_LOOP
-  for (std::size_t i = 0; i < nodes; ++i) to.put(i, from.at(i) - from.at(i - 1));
-}
-
-/// What the root of a child rod feels goes to the node it rides on: the force, and the torque T by
-/// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
-void pass_on_torque(const System::Model::Ride& ride, Workspace& work) {
-  if (!ride.reaction) return;
-  const std::size_t i = ride.root;
-  const Vec3 t0 = work.frame.z[i];
-  const Vec3 t = work.frame.z[ride.parent];
-  double along = work.g_spin[i];
-  if (!work.torque.empty()) along -= work.torque[i].dot(t0);
-  const Vec3 torque = t0.cross(work.g_tangent[i]) + along * t0;
-  work.g_tangent.add(ride.parent, torque.cross(t));
-  work.g_spin[ride.parent] += torque.dot(t);
-  work.g_tangent.set(i, Vec3::Zero());
-  work.g_spin[i] = 0.0;
-  if (!work.torque.empty()) work.torque[i].setZero();
-}
-
-void pass_on_force(const System::Model::Ride& ride, Workspace& work) {
-  if (!ride.reaction) return;
-  work.force.add(ride.parent, work.force[ride.root]);
-  work.force.set(ride.root, Vec3::Zero());
-}
-
 }  // namespace
 
 Evaluation elastic(const Model& model, const State& reference, bool viscous, Workspace& work, double& heat) {
@@ -409,17 +339,6 @@ Evaluation elastic_energy(const Model& model, const State& reference, Workspace&
 void relax(Workspace& work) {
   for (auto* vectors : {&work.g_before, &work.g_after, &work.g_tangent}) vectors->set_zero();
   for (auto* numbers : {&work.g_length, &work.g_spin}) numbers->set_zero();
-}
-
-void pull_back(const Model& model, Workspace& work) {
-  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_torque(*ride, work);
-  for (const Segment& s : model.segments)
-    if (s.twist || model.loaded) through_tangents(s, work);
-  through_edges(model.nodes, work);
-  to_masses(model.nodes, work);
-  if (model.loaded)
-    for (std::size_t i = 0; i < model.nodes; ++i) work.force.add(i, work.load[i]);
-  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_force(*ride, work);
 }
 
 }  // namespace tendril

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "combine.h"
 #include "elastic.h"
 #include "stiff_solver.h"
 
@@ -80,14 +81,16 @@ struct Rodas::Implementation {
   Evaluation stages(const State& state, double h, Eigen::VectorXd& y) {
     Eigen::VectorXd r = rate;
     for (std::size_t i = 0; i < 6; ++i) {
-      y = state.y;
-      for (std::size_t j = 0; j < i; ++j) y.noalias() += kA[i][j] * stage[j];
+      Term terms[6];
+      for (std::size_t j = 0; j < i; ++j) terms[j] = {kA[i][j], &stage[j]};
       if (i > 0) {
+        combine(&state.y, terms, i, y);
         ++evaluations;
         const Evaluation ok = system.derivative(state, state.time + kTime[i] * h, y, r, *work);
         if (!ok.ok()) return ok;
       }
-      for (std::size_t j = 0; j < i; ++j) r.noalias() += (kC[i][j] / h) * stage[j];
+      for (std::size_t j = 0; j < i; ++j) terms[j].weight = kC[i][j] / h;
+      if (i > 0) combine(&r, terms, i, r);
       if (solver->by_time().size() > 0 && kTimeSlope[i] != 0.0)
         r.noalias() += (h * kTimeSlope[i]) * solver->by_time();
       solver->solve(1.0 / (h * kGamma), r, stage[i]);
@@ -148,7 +151,7 @@ Evaluation Rodas::step(const State& state, double h, Eigen::VectorXd& y, Eigen::
   if (const Evaluation ok = self_->stages(state, h, y); !ok.ok()) return ok;
   if (const Evaluation ok = self_->add_work(state, h, y); !ok.ok()) return ok;
   error = self_->stage[5];
-  return y.allFinite() && error.allFinite() ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
+  return all_finite(y) && all_finite(error) ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
 }
 
 Evaluation Rodas::advance(State& state, double h) {
