@@ -14,27 +14,29 @@ constexpr double kReach = 2.0;
 
 using CandidateLists = std::vector<std::vector<Candidate>>;
 
-std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Vec3& p, double band,
-                                  std::vector<double>& hints) {
-  std::vector<double> nearest(projectors.size());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < projectors.size() && projectors.size() > 1; ++k) {
+/// The nearest projection on any of the curves; `hints` are those of the point before.
+Candidate nearest_of(std::span<const CurveProjector> projectors, const Vec3& p, std::vector<double>& hints) {
+  Candidate best{0, {}};
+  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
     const Projection at = projectors[k].nearest(p, hints[k]);
-    nearest[k] = at.distance;
     hints[k] = at.t;
-    least = std::min(least, at.distance);
+    if (k == 0 || at.distance < best.at.distance) best = {k, {at, std::max(0.0, at.lambda), false, 1}};
   }
+  if (best.at.kind != ProjectionKind::interior)
+    best.at = projectors[best.pair].all(p, 0.0, hints[best.pair]).front();
+  return best;
+}
+
+/// All projections within the band, the nearest first.
+std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Vec3& p,
+                                  const Candidate& nearest, double band) {
+  const double reach = (1.0 + kReach * band) * nearest.at.distance;
   std::vector<Candidate> out;
-  for (std::size_t k = 0; k < projectors.size(); ++k) {
-    const double reach = 1.0 + kReach * band;
-    double within = kReach * band;
-    if (projectors.size() > 1) {
-      if (nearest[k] > reach * least) continue;
-      within = nearest[k] > 0.0 ? std::max(0.0, reach * least / nearest[k] - 1.0) : 0.0;
-    }
-    for (const LocalMinimum& m : projectors[k].all(p, within, hints[k]))
-      out.push_back({static_cast<std::uint32_t>(k), m});
-    if (projectors.size() == 1) hints[0] = out.front().at.t;
+  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
+    const double distance = k == nearest.pair ? nearest.at.distance : projectors[k].nearest(p).distance;
+    if (distance > reach) continue;
+    const double within = distance > 0.0 ? std::max(0.0, reach / distance - 1.0) : 0.0;
+    for (const LocalMinimum& m : projectors[k].all(p, within, nearest.at.t)) out.push_back({k, m});
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Candidate& a, const Candidate& b) { return a.at.distance < b.at.distance; });
@@ -130,16 +132,22 @@ Neighbours::Neighbours(const PolygonMesh& mesh) {
 Branches find_branches(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band,
                        int threads) {
   const std::size_t count = mesh.points.size();
+  const SoftAxis axis(projectors);
   CandidateLists lists(count);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<double> hints;
     for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
-    for (std::size_t i = begin; i < end; ++i) lists[i] = candidates(projectors, mesh.points[i], band, hints);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Candidate nearest = nearest_of(projectors, mesh.points[i], hints);
+      lists[i] = {nearest};
+      if (axis.may_be_ambiguous(mesh.points[i], nearest, band))
+        lists[i] = candidates(projectors, mesh.points[i], nearest, band);
+    }
   });
   Branches branches;
-  branches.gated = Gate(projectors, mesh, lists).run();
+  if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
+    branches.gated = Gate(projectors, mesh, lists).run();
   branches.influences.resize(count);
-  const SoftAxis axis(projectors);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double share = axis.ambiguity(mesh.points[i], lists[i], band);

@@ -53,11 +53,12 @@ std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
 SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
-    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}};
+    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, 0.0};
     const auto look = [&](double t) {
       const Vec3 point = curve.value(t);
-      one.lengths.push_back(one.points.empty() ? 0.0
-                                               : one.lengths.back() + (point - one.points.back()).norm());
+      const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
+      one.spacing = std::max(one.spacing, step);
+      one.lengths.push_back(one.points.empty() ? 0.0 : one.lengths.back() + step);
       one.parameters.push_back(t);
       one.points.push_back(point);
       if (one.points.size() % (kLooksPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
@@ -158,6 +159,29 @@ double SoftAxis::ambiguity(const Vec3& p, std::span<const Candidate> all, double
   for (const Candidate& c : all.subspan(1))
     look(c.pair == nearest.pair, curves_[c.pair].length(c.at.t), c.at.point);
   return fall(lack, 0.08, 1.0);
+}
+
+bool SoftAxis::may_be_ambiguous(const Vec3& p, const Candidate& nearest, double band) const {
+  if (nearest.at.strength < band) return true;
+  const double distance = (p - nearest.at.point).norm();
+  const double here = curves_[nearest.pair].length(nearest.at.t);
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    const Curve& curve = curves_[pair];
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+      double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - p).norm();
+      // Between samples another strand may come nearer; the nearest's own does not.
+      const bool own =
+          pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
+      if (!own) {
+        apart += curve.spacing;
+        away = std::max(distance, away - curve.spacing);
+      }
+      const double strands = own ? 1.0 : std::max(1.0, 2.0 * distance / apart);
+      if (own && !(apart > 1e-3 * distance)) continue;
+      if ((away - distance) * (away + distance) < band * strands * apart * apart) return true;
+    }
+  }
+  return false;
 }
 
 double SoftAxis::Curve::length(double t) const {

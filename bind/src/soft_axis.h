@@ -28,6 +28,9 @@ class SoftAxis {
   /// with band |p - c|.
   double ambiguity(const Vec3& p, std::span<const Candidate> all, double band) const;
 
+  /// False where ambiguity() is 0, whatever other projections there are; cheaper, and needs none of them.
+  bool may_be_ambiguous(const Vec3& p, const Candidate& nearest, double band) const;
+
  private:
   struct Curve {
     const BSpline* curve;
@@ -36,6 +39,7 @@ class SoftAxis {
     /// Along it, where the cut distance is looked for, and how far along that is.
     std::vector<double> parameters, lengths;
     std::vector<Vec3> points;
+    double spacing = 0.0;  ///< longest of points
 
     double length(double t) const;
   };

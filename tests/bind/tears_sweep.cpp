@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+#include <tendril/bind/import.h>
+#include <tendril/bind/judge.h>
+
+#include <cstdio>
+
+#include "bind/tear_cases.h"
+
+// Ten meshes, five axes, five poses: nearest binding and continuous binding side by side, judged by
+// refinement.
+namespace tendril::bind {
+namespace {
+
+class EveryMesh : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, EveryMesh,
+                         testing::Values("diplodocus.off", "armadillo.off", "elephant.off", "cactus.off",
+                                         "camel.off", "dino.off", "bear.off", "knot1.off", "hand.off",
+                                         "triceratops.off"));
+
+void print(const std::string& axis, int pose, const char* mode, const JudgeReport& report) {
+  const JudgeLevel &first = report.levels.front(), &last = report.levels.back();
+  std::printf(
+      "  %-9s %-12s %-10s ambiguous %5.2f %%  p99.9 %6.1f -> %6.1f  p99.99 %6.1f -> %6.1f  max %6.1f -> %7.1f"
+      "  growth %.2f, max %.2f  exponent %.2f  %s\n",
+      axis.c_str(), test::tear_pose_name(pose), mode,
+      100.0 * static_cast<double>(first.ambiguous) / static_cast<double>(first.points), first.quantile[3],
+      last.quantile[3], first.quantile[4], last.quantile[4], first.max, last.max, report.growth[4],
+      report.growth_of_max, report.exponent, report.verdict == TearVerdict::tear ? "tear" : "smooth");
+}
+
+/// The four axes a mesh may sensibly have must not tear; of the absurd one, three loops within the mesh, the
+/// quantiles are held to what is reached.
+TEST_P(EveryMesh, DoesNotTear) {
+  const PolygonMesh mesh = read_mesh(std::string(TENDRIL_CGAL_MESHES) + "/" + GetParam());
+  std::printf("%s\n", GetParam());
+  for (const test::AxisCase& axis : test::tear_axes(mesh.points)) {
+    const CurvePair rest = test::tear_pose(axis.rest, 0).rest;
+    const TearJudge nearest({&rest, 1}, mesh, {}),
+        continuous({&rest, 1}, mesh, {.mode = BindMode::continuous});
+    for (int pose = 0; pose < test::kTearPoses; ++pose) {
+      const CurvePair posed = test::tear_pose(axis.rest, pose).posed;
+      print(axis.name, pose, "nearest", nearest.judge({&posed, 1}));
+      const JudgeReport report = continuous.judge({&posed, 1});
+      print(axis.name, pose, "continuous", report);
+      const bool absurd = axis.name == "loops";
+      for (const double growth : report.growth) EXPECT_LE(growth, absurd ? 1.3 : 1.1) << axis.name << pose;
+      if (!absurd) EXPECT_LE(report.growth_of_max, 1.6) << axis.name << pose;
+      EXPECT_LE(report.levels.back().rest_error, 1e-13 * bounding_diagonal(mesh.points));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tendril::bind
