@@ -125,15 +125,16 @@ Picture picture_of(const bind::PolygonMesh& mesh, const std::vector<CurvePair>& 
 }
 
 /// The mesh at rest with its ambiguous points in blue, and posed with its edges' stretch in colour.
-void draw_judged(const Options& options, const bind::TearJudge& judge, const Axes& axes, int threads) {
-  bind::PolygonMesh mesh = judge.mesh();
+void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Binding& binding,
+                const Axes& axes, int threads) {
+  const std::vector<Vec3> rest = mesh.points;
   mesh.point_colors.assign(mesh.points.size(), bind::Color{200, 200, 196, 255});
-  for (const std::uint32_t i : judge.binding().report().ambiguous)
+  for (const std::uint32_t i : binding.report().ambiguous)
     mesh.point_colors[i] = bind::Color{70, 120, 210, 255};
   std::vector<Picture> panels{picture_of(mesh, axes.rest, threads)};
   if (!axes.posed.empty()) {
-    judge.binding().update(axes.posed, mesh.points, threads);
-    color_by_stretch(mesh, judge.mesh().points);
+    binding.update(axes.posed, mesh.points, threads);
+    color_by_stretch(mesh, rest);
     panels.push_back(picture_of(mesh, axes.posed, threads));
   }
   const std::vector<std::string> captions(panels.size());
@@ -154,17 +155,17 @@ int judge(const Options& options) {
                 options.mesh.c_str(), mesh.points.size(), binding.report().ambiguous.size(),
                 binding.report().gated.size(), binding.report().places, binding.report().rest_error);
   bind::TearVerdict verdict = bind::TearVerdict::smooth;
-  if (!axes.posed.empty() || !options.picture.empty()) {
+  if (axes.posed.empty()) {
+    if (!options.picture.empty()) draw_bound(options, mesh, binding, axes, threads);
+  } else {
     bind::JudgeOptions judging;
     judging.refinements = options.refinements;
     const bind::TearJudge judged(axes.rest, mesh, how, judging);
-    if (!options.picture.empty()) draw_judged(options, judged, axes, threads);
-    if (!axes.posed.empty()) {
-      const bind::JudgeReport report = judged.judge(axes.posed);
-      verdict = report.verdict;
-      out["judge"] = to_json(report);
-      if (!options.json) print_row(options.nearest ? "nearest" : "continuous", report);
-    }
+    if (!options.picture.empty()) draw_bound(options, judged.mesh(), judged.binding(), axes, threads);
+    const bind::JudgeReport report = judged.judge(axes.posed);
+    verdict = report.verdict;
+    out["judge"] = to_json(report);
+    if (!options.json) print_row(options.nearest ? "nearest" : "continuous", report);
   }
   if (options.json) print(out);
   return verdict == bind::TearVerdict::smooth ? kDone : kNoSuccess;

@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   std::string mesh, axis, pose, out;
-  bool equal_length = false, json = false;
+  bool equal_length = false, continuous = false, json = false;
   int threads = 0;
 };
 
@@ -29,6 +29,8 @@ void deform_at_equal_length(const bind::Binding& binding, const CurvePair& rest,
 }
 
 int deform(const Options& options) {
+  if (options.equal_length && options.continuous)
+    throw InvalidInput("--equal-length", "with --continuous", "one of the two");
   const int threads = thread_count(options.threads);
   bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
   const CurveFile rest = read_curve(options.axis);
@@ -37,7 +39,8 @@ int deform(const Options& options) {
     throw InvalidInput(options.pose + "#", "its knots or degree differ from those of " + options.axis,
                        "the same, or --equal-length");
   }
-  const bind::Binding binding(rest.pair, mesh.points, threads);
+  const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
+  const bind::Binding binding({&rest.pair, 1}, mesh, {.mode = mode, .threads = threads});
   if (options.equal_length) {
     deform_at_equal_length(binding, rest.pair, posed.pair, mesh.points);
   } else {
@@ -53,6 +56,7 @@ int deform(const Options& options) {
            {"rest_error", report.rest_error},
            {"largest_gap", report.largest_gap},
            {"beyond_ends", report.beyond_ends},
+           {"ambiguous", report.ambiguous},
            {"past_focus", report.past_focus},
            {"degenerate", report.degenerate}});
   } else {
@@ -72,6 +76,7 @@ Command deform_command(CLI::App& parent) {
   app->add_option("--axis", options->axis, "curve file (JSON) of the axis at rest")->required();
   app->add_option("--pose", options->pose, "curve file (JSON) of the posed axis")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
+  app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
   app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
   app->add_flag("--json", options->json, "print JSON");

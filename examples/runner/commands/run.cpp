@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::string scene, out, mesh;
   int threads = 0;
-  bool no_frames = false, no_pictures = false, double_precision = false, json = false;
+  bool continuous = false, no_frames = false, no_pictures = false, double_precision = false, json = false;
 };
 
 SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
@@ -56,7 +56,8 @@ struct Prepared {
     const Phases::Timer timer(phases, Phases::bind);
     const CurvePair rest = rest_pair(file, file.scene.rods[file.bound_to]);
     try {
-      binding.emplace(rest, mesh.points, threads);
+      const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
+      binding.emplace(std::span(&rest, 1), mesh, bind::BindOptions{.mode = mode, .threads = threads});
     } catch (const InvalidInput& error) {
       throw InvalidInput(file.mesh, error.place() + ": " + error.reason(), error.expected());
     }
@@ -150,6 +151,7 @@ Command run_command(CLI::App& parent) {
       ->required();
   app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
+  app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");
