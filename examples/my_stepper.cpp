@@ -1,7 +1,7 @@
 // Extension point: an integrator of one's own on the system's equations. The classic Runge-Kutta method with
-// a fixed step; halving the step divides its error by 2^4.
+// a fixed step; halving the step divides its error by 2^4. A Simulation takes it in place of its own.
 #include <tendril/dynamics/forces.h>
-#include <tendril/dynamics/stepper.h>
+#include <tendril/dynamics/simulation.h>
 
 #include <cmath>
 #include <cstdio>
@@ -38,11 +38,12 @@ class Classic : public Stepper {
 };
 
 Vec3 tip_after(const System& system, int steps) {
-  State state = system.rest_state();
-  Classic stepper(system);
-  for (int i = 0; i < steps; ++i)
-    if (!stepper.advance(state, 0.5 / steps).ok()) return Vec3::Constant(std::nan(""));
-  return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.node_count() - 1));
+  SimulationOptions options;
+  options.own_stepper = [](const System& of) { return std::make_unique<Classic>(of); };
+  options.fixed_step = 0.5 / steps;
+  Simulation simulation(system, system.rest_state(), options);
+  if (simulation.run(0.5).stop != Stop::finished) return Vec3::Constant(std::nan(""));
+  return simulation.state().y.segment<3>(3 * static_cast<Eigen::Index>(system.node_count() - 1));
 }
 
 int main() {

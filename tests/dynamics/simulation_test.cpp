@@ -187,5 +187,28 @@ TEST(Simulation, StopsAtItsWorkLimit) {
   EXPECT_GT(report.time, 0.0);
 }
 
+TEST(OwnStepper, TakesThePlaceOfTheMethod) {
+  const System system(busy_scene());
+  SimulationOptions options;
+  Simulation own_method(system, system.rest_state(), options);
+  own_method.run(0.05);
+  options.method = Method::rodas;
+  options.own_stepper = [](const System& of) { return make_stepper(Method::cash_karp, of); };
+  Simulation simulation(system, system.rest_state(), options);
+  EXPECT_EQ(simulation.run(0.05).method, "Cash-Karp 4(5)");
+  EXPECT_EQ(simulation.state().y, own_method.state().y);
+}
+
+TEST(OwnStepper, MustEstimateItsErrorOrBeGivenAStep) {
+  const System system(busy_scene());
+  SimulationOptions options;
+  options.own_stepper = [](const System& of) { return make_stepper(Method::runge_kutta4, of); };
+  EXPECT_THROW(Simulation(system, system.rest_state(), options), InvalidInput);
+  options.fixed_step = 1e-4;
+  EXPECT_EQ(Simulation(system, system.rest_state(), options).run(0.01).stop, Stop::finished);
+  options.own_stepper = [](const System&) { return std::unique_ptr<Stepper>(); };
+  EXPECT_THROW(Simulation(system, system.rest_state(), options), InvalidInput);
+}
+
 }  // namespace
 }  // namespace tendril

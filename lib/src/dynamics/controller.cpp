@@ -1,7 +1,6 @@
 #include "controller.h"
 
-#include <tendril/dynamics/cash_karp.h>
-#include <tendril/dynamics/rodas.h>
+#include <tendril/base/error.h>
 #include <tendril/dynamics/stability.h>
 
 #include <algorithm>
@@ -36,18 +35,32 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
-  if (options.method == Method::cash_karp || options.method == Method::automatic)
-    embedded_ = std::make_unique<CashKarp>(system);
-  else if (options.method == Method::rodas)
-    embedded_ = std::make_unique<Rodas>(system);
-  else
-    fixed_ = make_stepper(options.method, system);
+  make_steppers();
   report_.method = fixed_ ? fixed_->name() : embedded_->name();
   report_.guard_step = std::numeric_limits<double>::infinity();
   measure_scales();
   now_ = report_.first = system_.energies(state_, workspace());
   start_ = state_.time;
   report_.work = -state_.y[state_.y.size() - 1];  // counted from here
+}
+
+void Controller::make_steppers() {
+  std::unique_ptr<Stepper> stepper =
+      options_.own_stepper ? options_.own_stepper(system_) : make_stepper(options_.method, system_);
+  if (!stepper) throw InvalidInput("own_stepper", "it made none", "a stepper");
+  if (options_.fixed_step) {
+    fixed_ = std::move(stepper);
+    return;
+  }
+  auto* embedded = dynamic_cast<EmbeddedStepper*>(stepper.get());
+  if (!embedded)
+    throw InvalidInput("own_stepper", "it estimates no error", "an EmbeddedStepper, or a fixed_step");
+  stepper.release();
+  embedded_.reset(embedded);
+}
+
+bool Controller::automatic() const {
+  return options_.method == Method::automatic && !options_.own_stepper;
 }
 
 void Controller::measure_scales() {
@@ -146,7 +159,7 @@ bool Controller::out_of_work() {
 
 bool Controller::step_towards(double target) {
   if (fixed_) return fixed_step_towards(target);
-  if (options_.method == Method::automatic)
+  if (automatic())
     choose();
   else if (!embedded_->stiff() && since_guard_ >= kGuardInterval)
     guard();

@@ -39,6 +39,8 @@ class Controller {
   }
   bool out_of_work();
   double error_norm(const Eigen::VectorXd& error) const;
+  void make_steppers();
+  bool automatic() const;
   void measure_scales();
   void guard();
   void measure_guard();

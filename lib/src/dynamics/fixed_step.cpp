@@ -21,7 +21,8 @@ struct StabilityLimits {
 StabilityLimits stability_limits(Method method) {
   if (method == Method::verlet) return {2.0, 2.0};
   if (method == Method::runge_kutta4) return {2.82, 2.78};
-  // Backward Euler amplifies nothing, explicit Euler everything undamped: the energy shows it.
+  // Backward Euler amplifies nothing, explicit Euler everything undamped: the energy shows it, as it does for
+  // steppers of which nothing is known.
   return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
@@ -35,7 +36,8 @@ void Controller::guard_fixed_step() {
   double decay = 0.0;
   for (const Rod& rod : system_.scene().rods)
     decay = std::max(decay, rod.mass_damping + rod.viscosity * w * w);
-  const StabilityLimits limits = stability_limits(options_.method);
+  const StabilityLimits limits =
+      stability_limits(options_.own_stepper ? Method::explicit_euler : options_.method);
   report_.guard_step = std::min(limits.oscillation / w, limits.decay / decay);
   if (*options_.fixed_step >= report_.guard_step)
     stop(Stop::too_stiff,

@@ -26,7 +26,7 @@ void check(const SimulationOptions& options) {
   positive("tolerance", options.tolerance);
   positive("energy_limit", options.energy_limit);
   if (options.fixed_step) positive("fixed_step", *options.fixed_step);
-  if (options.fixed_step.has_value() == chooses_steps(options.method))
+  if (!options.own_stepper && options.fixed_step.has_value() == chooses_steps(options.method))
     throw InvalidInput("fixed_step", options.fixed_step ? "given" : "missing",
                        options.fixed_step
                            ? std::string("none: ") + to_string(options.method) + " chooses its own steps"
