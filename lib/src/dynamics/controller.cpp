@@ -17,7 +17,7 @@ constexpr double kSafety = 0.93;  // thesis 3.34
 constexpr double kShrink = 0.2;   // bounds of the factor
 constexpr double kGrow = 5.0;
 constexpr double kLeastError = 1e-2;  // that a prediction counts with, of the tolerance
-constexpr long kGuardInterval = 64;   // accepted steps between estimates of the largest frequency
+constexpr long kGuardInterval = 128;  // accepted steps between estimates of the largest frequency
 constexpr long kDue = 1'000'000'000;  // a count of steps past every interval
 constexpr int kLanczosVectors = 16;
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
@@ -177,12 +177,12 @@ bool Controller::step_towards(double target) {
     last = embedded_->step(state_, h, y_, error_);
     const double error = last.ok() ? error_norm(error_) : 0.0;
     if (last.ok() && error <= 1.0) {
-      State next = state_;
-      next.y.swap(y_);
-      next.time = at.time;
-      last = system_.rebase(next, workspace());
+      next_ = state_;
+      next_.y.swap(y_);
+      next_.time = at.time;
+      last = system_.rebase(next_, workspace());
       if (last.ok()) {
-        state_ = std::move(next);
+        std::swap(state_, next_);
         accept(at, error);
         return !ended_;
       }
@@ -242,7 +242,10 @@ void Controller::record(const Aim& aim) {
   report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
   report_.largest_step = std::max(report_.largest_step, aim.h);
   const auto n = static_cast<Eigen::Index>(system_.node_count());
-  for (Eigen::Index i = 0; i < n; ++i) speed_ = std::max(speed_, state_.y.segment<3>(3 * n + 3 * i).norm());
+  double fastest = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    fastest = std::max(fastest, state_.y.segment<3>(3 * n + 3 * i).squaredNorm());
+  speed_ = std::max(speed_, std::sqrt(fastest));
   if (report_.accepted % kEnergyInterval == 0) check_energy();
 }
 

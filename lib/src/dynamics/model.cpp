@@ -300,6 +300,9 @@ void System::Model::lay_out_springs() {
     const NodeRange& rod = rods[r];
     const std::size_t end = rod.first + rod.count;
     begins[rod.first] = ends[end - 1] = 1;
+    seed.push_back(rod.first);
+    for (std::size_t i = rod.first; i < end; ++i)
+      if (holds_frame(i)) seed[r] = i;
     const bool third =
         std::any_of(bend_t.begin() + static_cast<std::ptrdiff_t>(rod.first),
                     bend_t.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0.0; });

@@ -15,6 +15,7 @@ struct System::Model {
   Scene scene;
   std::vector<NodeRange> rods;
   std::vector<std::size_t> order;  ///< of the rods, parents before their children
+  std::vector<std::size_t> seed;  ///< per rod, the node that its directors follow where it has no twist state
   std::vector<std::string> left_out;
   std::size_t nodes = 0;
   std::size_t twist_nodes = 0;

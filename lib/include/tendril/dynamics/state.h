@@ -12,6 +12,9 @@ namespace tendril {
 /// is the angle of the director against `director[i]` carried from `tangent[i]` to the tangent by the
 /// smallest rotation; w_i the spin about the tangent; work that done so far by forces without an energy, by
 /// damping and by moving anchors.
+///
+/// Of a rod without twist state only one node's reference is kept (the last with a held frame, or the first):
+/// the others' directors follow it along the rod. System::frames has them all.
 struct State {
   double time = 0.0;
   Eigen::VectorXd y;
