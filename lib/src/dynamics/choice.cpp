@@ -1,6 +1,7 @@
 #include <tendril/dynamics/cash_karp.h>
 #include <tendril/dynamics/rodas.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "controller.h"
@@ -15,7 +16,8 @@ constexpr double kImplicitCostWithTwist = 12.0;
 // No change back and forth: explicit steps must be too dear, or cheap enough, by this factor.
 constexpr double kMargin = 2.0;
 constexpr long kExplicitInterval = 64;  // accepted steps between looks at the choice
-constexpr long kImplicitInterval = 16;
+constexpr long kImplicitInterval = 16;  // at first; doubled while far from a change
+constexpr long kLongestInterval = 256;
 
 }  // namespace
 
@@ -32,7 +34,7 @@ void Controller::take(std::unique_ptr<EmbeddedStepper> stepper, std::string reas
 }
 
 void Controller::choose() {
-  if (since_guard_ < (embedded_->stiff() ? kImplicitInterval : kExplicitInterval)) return;
+  if (since_guard_ < (embedded_->stiff() ? implicit_interval_ : kExplicitInterval)) return;
   measure_guard();
   const bool first = !std::exchange(started_, true);
   const double wish = first || embedded_->stiff() ? h_ : wished_;
@@ -48,6 +50,9 @@ void Controller::choose() {
     take(std::make_unique<CashKarp>(system_), numbers());
   else if (first)
     report_.switches.push_back({state_.time, report_.method, numbers()});
+  const bool far = embedded_->stiff() && ratio > 4.0 * cost / kMargin;
+  implicit_interval_ =
+      far ? std::clamp(2 * implicit_interval_, kImplicitInterval, kLongestInterval) : kImplicitInterval;
 }
 
 }  // namespace tendril

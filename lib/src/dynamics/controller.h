@@ -73,7 +73,7 @@ class Controller {
   double last_error_ = 0.0, last_step_ = 0.0;  ///< of the last accepted step of a stiff method
   bool rejected_ = false;                      ///< a step was tried in vain since
   bool started_ = false;
-  long since_guard_ = 0, other_evaluations_ = 0;
+  long since_guard_ = 0, implicit_interval_ = 0, other_evaluations_ = 0;
   Energies now_;
   Report report_;
 };

@@ -26,9 +26,8 @@ double growth(double w, double alpha, double beta, double h) {
 
 bool allowed(double frequency, double alpha, double beta, const GuardLimits& limits, double h) {
   const double limit = std::min(limits.per_step, limits.whole * h / std::max(limits.duration, h));
-  for (int octave = 0; octave < 12; ++octave)
-    for (int part = 0; part < 4; ++part)
-      if (growth(frequency * std::exp2(-octave - 0.25 * part), alpha, beta, h) > limit) return false;
+  for (int half_octave = 0; half_octave < 24; ++half_octave)
+    if (growth(frequency * std::exp2(-0.5 * half_octave), alpha, beta, h) > limit) return false;
   return true;
 }
 
@@ -40,15 +39,16 @@ double cash_karp_amplification(double re, double im) {
 
 double guard_step(double frequency, double alpha, double beta, const GuardLimits& limits) {
   if (!(frequency > 0.0)) return std::numeric_limits<double>::infinity();
-  // Upwards from a step that is surely allowed, in steps of 5 %; then bisection of the last one.
+  // Upwards from a step that is surely allowed, in steps of a tenth; then bisection of the last one.
   const double fastest = frequency + alpha + beta * frequency * frequency;
-  double low = 1e-3 / fastest;
+  double low = 2e-2 / fastest;
+  while (!allowed(frequency, alpha, beta, limits, low) && low > 1e-9 / fastest) low *= 0.25;
   double high = low;
   while (high * frequency < 10.0 && allowed(frequency, alpha, beta, limits, high)) {
     low = high;
-    high *= 1.05;
+    high *= 1.1;
   }
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const double middle = 0.5 * (low + high);
     (allowed(frequency, alpha, beta, limits, middle) ? low : high) = middle;
   }
