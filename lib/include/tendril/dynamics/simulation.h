@@ -15,8 +15,8 @@ namespace tendril {
 /// and speed / l.
 struct SimulationOptions {
   Method method = Method::cash_karp;
-  /// Makes a stepper of one's own, in place of the method. With a fixed step it may be any Stepper; without it
-  /// must be an EmbeddedStepper, and one that is not stiff is capped by Cash-Karp's guard.
+  /// Makes a stepper of one's own, in place of the method. With a fixed step it may be any Stepper; without
+  /// it must be an EmbeddedStepper, and one that is not stiff is capped by Cash-Karp's guard.
   std::function<std::unique_ptr<Stepper>(const System&)> own_stepper = {};
   /// Step of the methods that do not choose their own. Stretches between outputs, jumps of a
   /// force and the end are divided into equal steps of at most this.
