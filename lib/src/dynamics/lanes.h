@@ -109,6 +109,36 @@ TENDRIL_INLINE Deviation deviation(double x, double cosine) {
   return {std::copysign(a, x), q * r.down};
 }
 
+/// Up to which square of a sine the series below hold: angles to 14.4 degrees.
+constexpr double kNearSquare = 0.0625;
+
+/// asin(s) / s for w = s^2 up to kNearSquare: Chebyshev fit, error 6e-18.
+TENDRIL_INLINE double asin_ratio(double w) {
+  double p = 1.43377619215329082e-02;
+  p = p * w + 1.36697981470607164e-02;
+  p = p * w + 1.73686867756920639e-02;
+  p = p * w + 2.23716872160263473e-02;
+  p = p * w + 3.03819520040953910e-02;
+  p = p * w + 4.46428570835504177e-02;
+  p = p * w + 7.50000000001768835e-02;
+  p = p * w + 1.66666666666666574e-01;
+  return 1.0 + p * w;
+}
+
+/// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-18.
+TENDRIL_INLINE double inverse_cosine(double w) {
+  double p = 2.43825199245947422e-01;
+  p = p * w + 1.89181888429336337e-01;
+  p = p * w + 2.09939085475754794e-01;
+  p = p * w + 2.25568508970002579e-01;
+  p = p * w + 2.46094130481056855e-01;
+  p = p * w + 2.73437495349241666e-01;
+  p = p * w + 3.12500000028413771e-01;
+  p = p * w + 3.74999999999933276e-01;
+  p = p * w + 5.00000000000000000e-01;
+  return 1.0 + p * w;
+}
+
 struct SineCosine {
   double sine, cosine;
 };
