@@ -197,14 +197,49 @@ TENDRIL_LANES void solve_four(const BlockPattern& p, const Block<4>* d, const Bl
   solve_blocks<4, false>(p, d, u, l, b);
 }
 
+/// to = -(a + s b), of all the numbers of some blocks; without b where it is null.
+TENDRIL_LANES void negate(std::size_t count, const double* __restrict a, double s, const double* __restrict b,
+                          double* __restrict to) {
+  if (!b) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = -a[i];
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) to[i] = -a[i] - s * b[i];
+}
+
 template <int B>
 void negate(const std::vector<Block<B>>& a, double s, const std::vector<Block<B>>* b,
             std::vector<Block<B>>& to) {
-  for (std::size_t i = 0; i < to.size(); ++i)
-    for (std::size_t c = 0; c < B; ++c) {
-      four(to[i].column[c]) = -four(a[i].column[c]);
-      if (b) four(to[i].column[c]) -= s * four((*b)[i].column[c]);
+  if (to.empty()) return;
+  const auto numbers = [](const auto& blocks) { return blocks.front().column.front().data(); };
+  negate(4 * B * to.size(), numbers(a), s, b ? numbers(*b) : nullptr, to.front().column.front().data());
+}
+
+/// y += s A x
+template <int B>
+TENDRIL_INLINE void multiply_add_blocks(const BlockPattern& pattern, const Block<B>* diagonal,
+                                        const Block<B>* upper, const Block<B>* lower, double s,
+                                        const double* x, double* y) {
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    Four sum;
+    apply<B>(diagonal[k], x + 4 * k, sum);
+    at(y + 4 * k) += s * sum;
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+      const std::size_t other = 4 * pattern.later(e);
+      apply<B>(upper[e], x + other, sum);
+      at(y + 4 * k) += s * sum;
+      apply<B>(lower[e], x + 4 * k, sum);
+      at(y + other) += s * sum;
     }
+  }
+}
+TENDRIL_LANES void multiply_add_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u,
+                                      const Block<3>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<3>(p, d, u, l, s, x, y);
+}
+TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u,
+                                     const Block<4>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<4>(p, d, u, l, s, x, y);
 }
 
 }  // namespace
@@ -223,18 +258,6 @@ typename BlockMatrix<B>::Block* BlockMatrix<B>::find(std::size_t row_node, std::
   const std::size_t e = pattern_->entry(std::min(row, column), std::max(row, column));
   if (e == pattern_->entries()) return nullptr;
   return row < column ? &upper_[e] : &lower_[e];
-}
-
-template <int B>
-void BlockMatrix<B>::column(std::size_t row, std::size_t node, const Vec3& k) {
-  if (Block* to = find(row, node); to && B == 4)
-    for (std::size_t r = 0; r < 3; ++r) to->column[3 % B][r] += k[static_cast<Eigen::Index>(r)];
-}
-
-template <int B>
-void BlockMatrix<B>::row(std::size_t node, std::size_t column, const Vec3& k) {
-  if (Block* to = find(node, column); to && B == 4)
-    for (std::size_t c = 0; c < 3; ++c) to->column[c][3] += k[static_cast<Eigen::Index>(c)];
 }
 
 template <int B>
@@ -283,18 +306,9 @@ void BlockMatrix<B>::solve(double* b) const {
 
 template <int B>
 void BlockMatrix<B>::multiply_add(double s, const double* x, double* y) const {
-  for (std::size_t k = 0; k < pattern_->size(); ++k) {
-    Four sum;
-    apply<B>(diagonal_[k], x + 4 * k, sum);
-    at(y + 4 * k) += s * sum;
-    for (std::size_t e = pattern_->begin(k); e < pattern_->begin(k + 1); ++e) {
-      const std::size_t other = 4 * pattern_->later(e);
-      apply<B>(upper_[e], x + other, sum);
-      at(y + 4 * k) += s * sum;
-      apply<B>(lower_[e], x + 4 * k, sum);
-      at(y + other) += s * sum;
-    }
-  }
+  if constexpr (B == 4) multiply_add_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+  if constexpr (B == 3)
+    multiply_add_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
 }
 
 template class BlockMatrix<3>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "block_route.h"
 #include "differences.h"
 #include "elastic.h"
 #include "spring_stiffness.h"
@@ -79,14 +80,14 @@ class OwnDerivatives : public LoadDerivatives {
  public:
   OwnDerivatives(const Model& model, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
       : model_(model), by_x_(by_x), by_u_(by_u) {}
-  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override {
-    if (model_.feels[i]) by_x_.block(model_.carrier[i], model_.carrier[j], k);
-  }
-  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override {
-    if (model_.feels[i]) by_u_.block(model_.carrier[i], model_.carrier[j], k);
-  }
+  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override { add(by_x_, i, j, k); }
+  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override { add(by_u_, i, j, k); }
 
  private:
+  void add(BlockMatrix<B>& to, std::size_t i, std::size_t j, const Mat3& k) {
+    if (!model_.feels[i]) return;
+    if (auto* block = to.find(model_.carrier[i], model_.carrier[j])) block->add(k);
+  }
   const Model& model_;
   BlockMatrix<B>&by_x_, &by_u_;
 };
@@ -103,23 +104,27 @@ class BlockSolver : public StiffSolver {
         timed_(depends_on_time(model_)),
         pattern_(tips_to_roots(model_), couplings(model_)),
         by_x_(pattern_, !rates_matter_),
+        to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
         b_(4 * pattern_.size()),
         x_(4 * pattern_.size()) {
-    if (rates_matter_) by_u_.emplace(pattern_, false);
+    if (rates_matter_) {
+      by_u_.emplace(pattern_, false);
+      to_u_.emplace(*by_u_);
+    }
     if (needs_differences(model_)) differences_.emplace(model_, pattern_);
     lay_out();
   }
 
   long differentiate(const State& state, const Eigen::VectorXd& rate) override {
-    by_x_.set_zero();
-    if (by_u_) by_u_->set_zero();
+    to_x_.restart();
+    if (to_u_) to_u_->restart();
     double energy = 0.0;
     if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
-    visit_stiffness(model_, state, work_, -1.0, by_x_);
+    visit_stiffness(model_, state, work_, -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
-      if (resists(model_)) visit_resistance(model_, work_, *by_u_);
+      if (resists(model_)) visit_resistance(model_, work_, *to_u_);
       // The rates of the frames are needed from here on.
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
       add_turning();
@@ -151,7 +156,9 @@ class BlockSolver : public StiffSolver {
       for (std::size_t c = 0; c < B; ++c)
         diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
     }
-    for (const Connection& c : connections_) add_connection(s, c);
+    if (links_.empty())
+      for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
+    for (const Link& link : links_) add_connection(s, link);
     for (const Held& held : held_) {
       if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
       matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
@@ -228,7 +235,7 @@ class BlockSolver : public StiffSolver {
   bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
 
   /// Blocks by the vectors along the two edges of node i, as blocks by its three positions.
-  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockMatrix<B>& to) const {
+  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockRoute<B>& to) const {
     const auto nodes = around(i);
     const auto add = [&](std::size_t a, std::size_t b, const Mat3& block) {
       if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
@@ -252,38 +259,53 @@ class BlockSolver : public StiffSolver {
       if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
       const TurningTerms terms =
           turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_);
-      add_by_nodes(i, terms.by_x, by_x_);
-      add_by_nodes(i, terms.by_v, *by_u_);
+      add_by_nodes(i, terms.by_x, to_x_);
+      add_by_nodes(i, terms.by_v, *to_u_);
       const auto nodes = around(i);
       const Vec3 spin[3] = {-terms.by_spin[0], terms.by_spin[0] - terms.by_spin[1], terms.by_spin[1]};
       for (std::size_t a = 0; a < 3; ++a)
-        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) by_u_->column(nodes[a], i, spin[a]);
+        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) to_u_->column(nodes[a], i, spin[a]);
       connections_.push_back(
           {i, nodes, {-terms.connection[0], terms.connection[0] - terms.connection[1], terms.connection[1]}});
     }
   }
 
-  /// Adds (F_u - s M) C, as far as the pattern goes.
-  void add_connection(double s, const Connection& c) {
+  /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle
+  /// itself also the inertia.
+  struct Link {
+    const typename BlockMatrix<B>::Block* from;
+    typename BlockMatrix<B>::Block* to;
+    std::size_t connection, a;
+    bool own;
+  };
+
+  /// Where a connection adds, as far as the pattern goes.
+  void link(std::size_t connection) {
+    const Connection& c = connections_[connection];
     const std::size_t own = pattern_.pivot(c.node);
-    const double inertia = mass_[4 * own + 3];
     const auto add = [&](std::size_t row) {
       const auto* from = by_u_->find(row, c.node);
       for (std::size_t a = 0; a < 3; ++a) {
         auto* to = c.from[a] == EdgeStiffness::kNone ? nullptr : matrix_.find(row, c.from[a]);
-        if (!to) continue;
-        for (std::size_t column = 0; column < 3; ++column)
-          for (std::size_t r = 0; r < B; ++r)
-            to->column[column][r] += from->column[B - 1][r] * c.by[a][static_cast<Eigen::Index>(column)];
+        if (to) links_.push_back({from, to, connection, a, row == c.node});
       }
     };
     add(c.node);
     for (std::size_t e = pattern_.begin(own); e < pattern_.begin(own + 1); ++e)
       add(pattern_.node(pattern_.later(e)));
     for (const std::size_t e : pattern_.earlier(own)) add(pattern_.node(pattern_.low(e)));
-    for (std::size_t a = 0; a < 3; ++a)
-      if (c.from[a] != EdgeStiffness::kNone)
-        matrix_.row(c.node, c.from[a], Vec3(-(s * inertia + damping_[4 * own + 3]) * c.by[a]));
+  }
+
+  void add_connection(double s, const Link& link) {
+    const Connection& c = connections_[link.connection];
+    std::array<double, 4> by = link.from->column[B - 1];
+    if (link.own) {
+      const std::size_t angle = 4 * pattern_.pivot(c.node) + 3;
+      by[3] -= s * mass_[angle] + damping_[angle];
+    }
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t r = 0; r < B; ++r)
+        link.to->column[column][r] += by[r] * c.by[link.a][static_cast<Eigen::Index>(column)];
   }
 
   double turned_by(const Connection& c) const {
@@ -299,10 +321,14 @@ class BlockSolver : public StiffSolver {
   System::Workspace& work_;
   bool loaded_, rates_matter_, timed_;
   BlockPattern pattern_;
-  BlockMatrix<B> by_x_, matrix_;
+  BlockMatrix<B> by_x_;
+  BlockRoute<B> to_x_;
+  BlockMatrix<B> matrix_;
   std::optional<BlockMatrix<B>> by_u_;
+  std::optional<BlockRoute<B>> to_u_;
   std::optional<Differences<B>> differences_;
   std::vector<Connection> connections_;
+  std::vector<Link> links_;
   std::vector<Held> held_;
   std::vector<Eigen::Index> place_x_, place_u_;  ///< per pivot four, -1 for what is held or not there
   std::vector<double> mass_, damping_, b_, x_;
