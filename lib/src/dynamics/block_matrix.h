@@ -10,7 +10,7 @@
 namespace tendril {
 
 /// A matrix of B x B blocks, one row of blocks a node (three positions; four with the angle), on a pattern.
-/// Symmetric ones keep the upper half alone.
+/// Symmetric ones are given the upper half alone.
 template <int B>
 class BlockMatrix {
  public:
@@ -36,7 +36,7 @@ class BlockMatrix {
       : pattern_(&pattern),
         diagonal_(pattern.size()),
         upper_(pattern.entries()),
-        lower_(symmetric ? 0 : pattern.entries()),
+        lower_(pattern.entries()),
         symmetric_(symmetric) {}
 
   void set_zero();

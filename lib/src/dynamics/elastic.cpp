@@ -29,7 +29,7 @@ struct Loops {
 };
 
 /// Stretches of this length are done again with the far loop where the near one does not hold.
-constexpr std::size_t kStretch = 128;
+constexpr std::size_t kStretch = 32;
 
 bool run(const Loops& loops, const Model& model, const State& reference, const Segment& segment,
          Workspace& work) {
@@ -280,8 +280,8 @@ TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size
     double ratio;
     bool good;
     if constexpr (Near) {
-      ratio = lanes::asin_ratio(sine2);
-      good = sine2 <= lanes::kNearSquare && cosine > 0.0;
+      ratio = lanes::wide_asin_ratio(sine2);
+      good = sine2 <= lanes::kWideSquare && cosine > 0.0;
     } else {
       const V3 sum = a + b;
       const double sine = std::sqrt(sine2);

@@ -125,6 +125,27 @@ TENDRIL_INLINE double asin_ratio(double w) {
   return 1.0 + p * w;
 }
 
+/// The same up to kWideSquare, 30 degrees: error 3e-18.
+constexpr double kWideSquare = 0.25;
+TENDRIL_INLINE double wide_asin_ratio(double w) {
+  double p = 3.07187689951910967e-02;
+  p = p * w - 2.40205449185546052e-02;
+  p = p * w + 2.25535636382029822e-02;
+  p = p * w + 3.80853033290725978e-04;
+  p = p * w + 8.79500607648842948e-03;
+  p = p * w + 8.13582992550165689e-03;
+  p = p * w + 9.79275132020199571e-03;
+  p = p * w + 1.15490866129874248e-02;
+  p = p * w + 1.39650099320536066e-02;
+  p = p * w + 1.73527574778197871e-02;
+  p = p * w + 2.23721592796799797e-02;
+  p = p * w + 3.03819444413638076e-02;
+  p = p * w + 4.46428571428834006e-02;
+  p = p * w + 7.49999999999999140e-02;
+  p = p * w + 1.66666666666666657e-01;
+  return 1.0 + p * w;
+}
+
 /// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-18.
 TENDRIL_INLINE double inverse_cosine(double w) {
   double p = 2.43825199245947422e-01;

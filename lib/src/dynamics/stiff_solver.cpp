@@ -15,10 +15,37 @@ namespace {
 
 using Model = System::Model;
 
-std::vector<std::size_t> tips_to_roots(const Model& model) {
+/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
+std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
+  const NodeRange& nodes = model.rods[rod];
   std::vector<std::size_t> order;
-  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r)
-    for (std::size_t i = model.rods[*r].count; i-- > 0;) order.push_back(model.rods[*r].first + i);
+  for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
+    order.push_back(--high);
+    if (low < high && !model.ride_of(rod)) order.push_back(low++);
+  }
+  return order;
+}
+
+bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
+  const Model::Ride* ride = model.ride_of(child);
+  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
+}
+
+/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
+/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
+/// core.
+std::vector<std::size_t> elimination_order(const Model& model) {
+  std::vector<std::size_t> order;
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
+    const std::vector<std::size_t> one = inwards(model, *r);
+    std::vector<std::size_t> two;
+    const bool paired = r + 1 != model.order.rend() && !rides_on(model, *r, *(r + 1));
+    if (paired) two = inwards(model, *++r);
+    for (std::size_t k = 0; k < std::max(one.size(), two.size()); ++k) {
+      if (k < one.size()) order.push_back(one[k]);
+      if (k < two.size()) order.push_back(two[k]);
+    }
+  }
   return order;
 }
 
@@ -102,7 +129,7 @@ class BlockSolver : public StiffSolver {
         loaded_(model_.loaded && depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_),
         timed_(depends_on_time(model_)),
-        pattern_(tips_to_roots(model_), couplings(model_)),
+        pattern_(elimination_order(model_), couplings(model_)),
         by_x_(pattern_, !rates_matter_),
         to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
@@ -167,22 +194,29 @@ class BlockSolver : public StiffSolver {
   }
 
   void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) override {
-    for (std::size_t k = 0; k < b_.size(); ++k) {
-      const double rx = place_x_[k] < 0 ? 0.0 : r[place_x_[k]];
-      const double ru = place_x_[k] < 0 ? 0.0 : r[place_u_[k]];
-      x_[k] = rx;
-      b_[k] = mass_[k] * (ru + s * rx) + damping_[k] * rx;
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto put = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        x_[4 * k + c] = r[x];
+        b_[4 * k + c] = mass_[4 * k + c] * (r[u] + s * r[x]) + damping_[4 * k + c] * r[x];
+      };
+      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
     if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
     matrix_.solve(b_.data());
     result.setZero(r.size());
-    for (std::size_t k = 0; k < b_.size(); ++k) {
-      if (place_x_[k] < 0) continue;
-      result[place_x_[k]] = b_[k];
-      result[place_u_[k]] = s * b_[k] - x_[k];
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto take = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        result[x] = b_[4 * k + c];
+        result[u] = s * b_[4 * k + c] - x_[4 * k + c];
+      };
+      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0)
+        take(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
-    for (const Connection& c : connections_) result[place_u_[4 * pattern_.pivot(c.node) + 3]] -= turned_by(c);
+    for (const Connection& c : connections_)
+      result[model_.spin_begin() + model_.twist_index[c.node]] -= turned_by(c);
   }
 
  private:
@@ -190,30 +224,23 @@ class BlockSolver : public StiffSolver {
     std::size_t node, coordinate;
   };
 
-  /// Places in y of the free coordinates, their masses, and the held ones.
+  /// Places in y, the masses of what is free, and what is held: there every rate is 0, and stays it.
   void lay_out() {
-    place_x_.assign(b_.size(), -1);
-    place_u_.assign(b_.size(), -1);
     mass_.assign(b_.size(), 0.0);
     damping_.assign(b_.size(), 0.0);
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const std::size_t i = pattern_.node(k);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto at = static_cast<Eigen::Index>(3 * i + c);
-        set(k, c, !model_.holds_position(i), at, model_.v_begin() + at, model_.moved_mass[i]);
-      }
-      if (B == 4)
-        set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.theta_begin() + model_.twist_index[i],
-            model_.spin_begin() + model_.twist_index[i], model_.inertia[i]);
+      place_.push_back(static_cast<Eigen::Index>(3 * i));
+      angle_.push_back(B == 4 ? model_.twist_index[i] : -1);
+      for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
+      if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
     }
   }
-  void set(std::size_t k, std::size_t c, bool free, Eigen::Index x, Eigen::Index u, double mass) {
+  void set(std::size_t k, std::size_t c, bool free, double mass) {
     if (!free) {
       held_.push_back({pattern_.node(k), c});
       return;
     }
-    place_x_[4 * k + c] = x;
-    place_u_[4 * k + c] = u;
     mass_[4 * k + c] = mass;
     damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
   }
@@ -330,8 +357,8 @@ class BlockSolver : public StiffSolver {
   std::vector<Connection> connections_;
   std::vector<Link> links_;
   std::vector<Held> held_;
-  std::vector<Eigen::Index> place_x_, place_u_;  ///< per pivot four, -1 for what is held or not there
-  std::vector<double> mass_, damping_, b_, x_;
+  std::vector<Eigen::Index> place_, angle_;     ///< per pivot, of its node in p, and in theta or -1
+  std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
   Eigen::VectorXd gradient_;
 };
 
