@@ -14,7 +14,8 @@ namespace tendril {
 namespace {
 
 constexpr double kSafety = 0.93;  // thesis 3.34
-constexpr double kShrink = 0.2;   // bounds of the factor
+constexpr double kStiffSafety = 0.85;
+constexpr double kShrink = 0.2;  // bounds of the factor
 constexpr double kGrow = 5.0;
 constexpr double kLeastError = 1e-2;  // that a prediction counts with, of the tolerance
 constexpr long kGuardInterval = 128;  // accepted steps between estimates of the largest frequency
@@ -212,16 +213,21 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 void Controller::accept(const Aim& aim, double error) {
   embedded_->restart();
   const double grow = -1.0 / (embedded_->error_order() + 1);  // -0.2 for Cash-Karp
-  double wish = error > 0.0 ? kSafety * std::pow(error, grow) : kGrow;
+  const double safety = embedded_->stiff() ? kStiffSafety : kSafety;
+  double wish = error > 0.0 ? safety * std::pow(error, grow) : kGrow;
   if (embedded_->stiff()) {
     // Gustafsson's predictive control: how the error changed from step to step tells what it will do next.
-    // Without it every third step or so of a ringing rod is tried in vain.
+    // Without it every third step or so of a ringing rod is tried in vain. After a step tried in vain the two
+    // steps are too unlike to tell anything.
     const double e = std::max(error, kLeastError);
-    if (last_error_ > 0.0)
-      wish = std::min(wish, kSafety * std::pow(last_error_ / (e * e), -grow) * aim.h / last_step_);
+    const bool rejected = std::exchange(rejected_, false);
+    if (rejected)
+      wish = std::min(wish, 1.0);
+    else if (last_error_ > 0.0)
+      wish = std::min(
+          wish, std::max(kShrink, safety * std::pow(last_error_ / (e * e), -grow) * aim.h / last_step_));
     last_error_ = e;
     last_step_ = aim.h;
-    if (std::exchange(rejected_, false)) wish = std::min(wish, 1.0);
   }
   const double factor = std::min(kGrow, wish);
   wished_ = aim.h * wish;
