@@ -159,6 +159,7 @@ void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspa
   take_apart(y.data() + model.v_begin(), model.nodes, work.v);
   for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
     const Anchor& anchor = model.scene.anchors[a];
+    if (!model.acts(anchor)) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     work.pose[a] = anchor.motion
                        ? anchor.motion(t)
@@ -191,7 +192,7 @@ void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
 void take_held_frames(const Model& model, Workspace& work) {
   for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
     const Anchor& anchor = model.scene.anchors[a];
-    if (!anchor.holds_frame) continue;
+    if (!anchor.holds_frame || !model.acts(anchor)) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     const AnchorPose& pose = work.pose[a];
     work.frame.set(i, pose.frame);

@@ -155,7 +155,7 @@ TENDRIL_LANES void turn(const Model& model, const Model::Segment& segment, const
 
 }  // namespace
 
-System::System(Scene scene) : model_(std::make_unique<const Model>(std::move(scene))) {}
+System::System(Scene scene, double from) : model_(std::make_unique<const Model>(std::move(scene), from)) {}
 System::~System() = default;
 System::System(System&&) noexcept = default;
 System& System::operator=(System&&) noexcept = default;
