@@ -281,6 +281,7 @@ Energies System::energies(const State& state, Workspace& work) const {
   const Model& model = *model_;
   Energies result;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
+  if (!all_finite(state.y)) return result;
   if (!kinematics(model, state, state.time, state.y, what, work).ok()) return result;
   if (!elastic_energy(model, state, work, result.elastic).ok()) return result;
   for (std::size_t i = 0; i < model.nodes; ++i) {
