@@ -1,0 +1,102 @@
+#include "layout.h"
+
+#include <tendril/base/error.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tendril::bind {
+namespace {
+
+/// Which span of which curve-pair an entry lies in.
+class Spans {
+ public:
+  explicit Spans(const std::vector<KnotVector>& knots) : knots_(knots) {
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+      index_.emplace_back(knots[k].knots().size(), 0);
+      for (const int at : knots[k].nonempty_spans()) {
+        index_[k][static_cast<std::size_t>(at)] = static_cast<std::uint32_t>(spans.size());
+        spans.push_back(make_span(static_cast<std::uint32_t>(k), knots[k], at));
+      }
+    }
+  }
+  std::uint32_t of(std::uint32_t pair, double t) const {
+    return index_[pair][static_cast<std::size_t>(knots_[pair].span(t))];
+  }
+
+  std::vector<Span> spans;
+
+ private:
+  const std::vector<KnotVector>& knots_;
+  std::vector<std::vector<std::uint32_t>> index_;
+};
+
+/// Counting sort: stable.
+Order sort_by_span(const std::vector<std::uint32_t>& span, std::size_t first_entry, std::size_t spans) {
+  std::vector<std::uint32_t> begin(spans + 1, 0);
+  for (const std::uint32_t s : span) ++begin[s + 1];
+  for (std::size_t s = 0; s < spans; ++s) begin[s + 1] += begin[s];
+  Order order;
+  for (std::uint32_t s = 0; s < spans; ++s)
+    if (begin[s] < begin[s + 1]) order.runs.push_back({s, begin[s], begin[s + 1]});
+  order.entry.resize(span.size());
+  for (std::size_t i = 0; i < span.size(); ++i)
+    order.entry[begin[span[i]]++] = static_cast<std::uint32_t>(first_entry + i);
+  return order;
+}
+
+}  // namespace
+
+std::uint32_t Order::span_of(std::size_t slot) const {
+  const auto after = std::upper_bound(runs.begin(), runs.end(), slot,
+                                      [](std::size_t at, const Run& run) { return at < run.begin; });
+  return std::prev(after)->span;
+}
+
+const Binding::Layout::Blend* Binding::Layout::blend_of(std::size_t point) const {
+  const auto found = std::lower_bound(blends.begin(), blends.end(), point,
+                                      [](const Blend& blend, std::size_t p) { return blend.point < p; });
+  return found != blends.end() && found->point == point ? &*found : nullptr;
+}
+
+void Binding::Layout::arrange() {
+  Spans all(knots);
+  const auto order_of = [&](std::size_t first, std::size_t count) {
+    std::vector<std::uint32_t> span(count);
+    for (std::size_t i = 0; i < count; ++i) span[i] = all.of(pair_of(first + i), entries[first + i].t);
+    return sort_by_span(span, first, all.spans.size());
+  };
+  nearest = order_of(0, size);
+  others = order_of(size, entries.size() - size);
+  spans = std::move(all.spans);
+  const auto fill = [&](const Order& order, std::size_t first, std::vector<std::uint32_t>& slots) {
+    Records<double> records(order.entry.size());
+    slots.resize(order.entry.size());
+    for (const Run& run : order.runs)
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        const AxialPoint& at = entries[order.entry[i]];
+        slots[order.entry[i] - first] = static_cast<std::uint32_t>(i);
+        records.s[i] = (at.t - spans[run.span].middle) / spans[run.span].length;
+        records.u[i] = at.u;
+        records.v[i] = at.v;
+        records.w[i] = at.w;
+      }
+    return records;
+  };
+  numbers.nearest = fill(nearest, 0, slot);
+  numbers.others = fill(others, size, other_slot);
+}
+
+void Binding::Layout::require_same_knots(std::span<const CurvePair> posed) const {
+  if (posed.size() != knots.size())
+    throw InvalidInput("posed", std::to_string(posed.size()) + " curve-pairs", std::to_string(knots.size()));
+  for (std::size_t k = 0; k < posed.size(); ++k)
+    if (posed[k].knots() != knots[k])
+      throw InvalidInput("posed curve-pair", "other knots", "those it was bound with");
+}
+
+void Binding::Layout::require_point(std::size_t point) const {
+  if (point >= size) throw InvalidInput("point", std::to_string(point), "less than " + std::to_string(size));
+}
+
+}  // namespace tendril::bind
