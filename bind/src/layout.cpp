@@ -83,6 +83,8 @@ void Binding::Layout::arrange() {
       }
     return records;
   };
+  if (!blends.empty()) kept.assign(size, 1.0);
+  for (std::size_t k = 0; k < share.size(); ++k) kept[owner[k]] -= share[k];
   numbers.nearest = fill(nearest, 0, slot);
   numbers.others = fill(others, size, other_slot);
 }

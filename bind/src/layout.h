@@ -35,6 +35,7 @@ struct Binding::Layout {
   std::vector<Blend> blends;         ///< ascending
   std::vector<double> share;         ///< of the entries after size
   std::vector<std::uint32_t> owner;  ///< their points
+  std::vector<double> kept;          ///< per point, the share of its nearest projection; empty without blends
 
   std::vector<Span> spans;
   Order nearest, others;

@@ -37,12 +37,6 @@ struct Limits<float> {
 /// As wide as the number, so that a loop over numbers handles it in the same lanes.
 template <class T>
 using Flag = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
-/// Not 0 where the condition fails. By way of numbers, which the oldest vector units can select.
-template <class T>
-TENDRIL_INLINE Flag<T> flag_unless(bool condition) {
-  return std::bit_cast<Flag<T>>(condition ? T(0) : T(1));
-}
-
 template <class T>
 struct Triple {
   T x, y, z;
@@ -78,8 +72,8 @@ TENDRIL_INLINE Triple<T> term(const std::array<std::array<T, 3>, kMostTerms>& c,
 template <class T>
 struct Moving {
   Triple<T> origin, z, offset, x;
-  T zz, xx;       ///< squares of the lengths of z and x
-  Flag<T> fault;  ///< not 0: the frame is not to be computed here
+  T zz, xx;  ///< squares of the lengths of z and x
+  T sound;  ///< 1, or 0 where the frame is not to be computed here; a number, which every vector unit selects
 };
 
 /// Horner's scheme for the value and the derivative together, from the coefficient J down. Unrolled by hand:
@@ -104,9 +98,9 @@ TENDRIL_INLINE Moving<T> moving(const Piece<T>& piece, T s) {
   at.x = cross(at.offset, at.z);
   at.zz = dot(at.z, at.z);
   at.xx = dot(at.x, at.x);
-  at.fault = flag_unless<T>(at.xx > Limits<T>::least_sine * at.zz);
-  at.fault |= flag_unless<T>(at.zz > piece.least_speed);
-  at.fault |= flag_unless<T>(at.zz < static_cast<T>(Limits<T>::largest));
+  at.sound = at.xx > Limits<T>::least_sine * at.zz ? T(1) : T(0);
+  at.sound = at.zz > piece.least_speed ? at.sound : T(0);
+  at.sound = at.zz < static_cast<T>(Limits<T>::largest) ? at.sound : T(0);
   return at;
 }
 
@@ -134,7 +128,8 @@ TENDRIL_INLINE Placed<T> place(const Piece<T>& piece, T s, T u, T v, T w) {
   const Moving<T> at = moving<T, P>(piece, s);
   const Lengths<T> inverse = inverse_lengths(at);
   const Triple<T> y = cross(at.z, at.x);
-  return {((at.origin + (u * inverse.x) * at.x) + (v * inverse.both) * y) + (w * inverse.z) * at.z, at.fault};
+  return {((at.origin + (u * inverse.x) * at.x) + (v * inverse.both) * y) + (w * inverse.z) * at.z,
+          std::bit_cast<Flag<T>>(T(1) - at.sound)};
 }
 
 /// Places `count` points; true when one was left to the second pass.

@@ -3,6 +3,7 @@
 #include <tendril/bind/bind_options.h>
 #include <tendril/bind/columns.h>
 #include <tendril/bind/polygon_mesh.h>
+#include <tendril/curve/control_forces.h>
 #include <tendril/curve/curve_pair.h>
 
 #include <cstdint>
@@ -67,6 +68,16 @@ class Binding {
   Vec3 at(std::span<const CurvePair> posed, std::size_t point) const;
   Vec3 at(const CurvePair& posed, std::size_t point) const;
   void at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points, MutablePoints out) const;
+
+  /// The transpose of update: forces on the points as forces on the control points that do the same virtual
+  /// work, with the same resultant force and torque. A point without a frame (closer than 1e-8 to degenerate)
+  /// is taken to follow the curve's point alone. At most 3 updates' time; same bits for any number of
+  /// threads. \param forces  size() finite vectors; or one for each of `points` \return  one entry per
+  /// curve-pair
+  std::vector<ControlForces> pull_back(std::span<const CurvePair> posed, Points forces,
+                                       int threads = 1) const;
+  std::vector<ControlForces> pull_back(std::span<const CurvePair> posed,
+                                       std::span<const std::uint32_t> points, Points forces) const;
 
   struct Layout;  ///< the flat arrays, private to the module
   const Layout& layout() const { return *layout_; }
