@@ -31,7 +31,8 @@ struct CurveProjector::Data {
   struct Found {
     double t, distance, gap;
   };
-  virtual Found find(const Vec3& p, const Bounds& bounds, double upper) const = 0;
+  /// \param hint  a parameter, NaN for none: its sub-piece is examined first
+  virtual Found find(const Vec3& p, const Bounds& bounds, double hint) const = 0;
   /// Local minima up to the distance `cut`, in the order of t.
   virtual std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const = 0;
 
@@ -95,11 +96,24 @@ struct DataOfDegree final : CurveProjector::Data {
         fine(search::fine_pieces<P>(curve)),
         tree(all_points<P>(pieces), P + 1) {}
 
-  Found find(const Vec3& p, const Bounds& bounds, double upper) const override {
-    search::Search<P> search(curve, p, bounds, upper);
+  Found find(const Vec3& p, const Bounds& bounds, double hint) const override {
+    search::Search<P> search(curve, p, bounds);
+    const std::size_t first = std::isnan(hint) ? pieces.size() : piece_at(hint);
+    if (first < pieces.size()) search.examine(pieces[first]);
     tree.descend(
-        p, [&] { return search.cut(); }, [&](std::size_t piece) { search.examine(pieces[piece]); });
+        p, [&] { return search.cut(); },
+        [&](std::size_t piece) {
+          if (piece != first) search.examine(pieces[piece]);
+        });
+    search.finish();
     return {search.t(), search.distance(), search.gap()};
+  }
+
+  std::size_t piece_at(double t) const {
+    const auto after =
+        std::upper_bound(pieces.begin(), pieces.end(), t,
+                         [](double at, const search::Piece<P>& piece) { return at < piece.begin; });
+    return after == pieces.begin() ? 0 : static_cast<std::size_t>(after - pieces.begin()) - 1;
   }
 
   std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const override {
@@ -281,13 +295,13 @@ CurveProjector::CurveProjector(const BSpline& curve) : data_(prepare(curve)) {}
 
 Projection CurveProjector::nearest(const Vec3& p) const {
   check(p);
-  return describe(*data_, p, data_->find(p, data_->bounds(p), std::numeric_limits<double>::infinity()));
+  return describe(*data_, p, data_->find(p, data_->bounds(p), std::numeric_limits<double>::quiet_NaN()));
 }
 
 Projection CurveProjector::nearest(const Vec3& p, double hint) const {
   check(p);
   if (std::isnan(hint)) throw InvalidInput("CurveProjector: hint", "not a number", "a parameter");
-  return describe(*data_, p, data_->find(p, data_->bounds(p), (data_->curve.value(hint) - p).norm()));
+  return describe(*data_, p, data_->find(p, data_->bounds(p), hint));
 }
 
 std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band) const {
