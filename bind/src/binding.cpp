@@ -12,6 +12,7 @@ namespace tendril::bind {
 namespace {
 
 constexpr double kLargest = 1e150;  // the projection squares coordinates
+constexpr double kInPlane = 3e-16;  // of the points' size: w of a normal projection is rounding, and left out
 
 void check(Points points, int threads) {
   if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
@@ -126,7 +127,7 @@ Binding::Binding(const CurvePair& rest, Points points, int threads) {
   layout->size = points.size();
   layout->knots.push_back(rest.knots());
   project(rest, points, threads, *layout, found);
-  layout->arrange();
+  layout->arrange(kInPlane * bounding_diagonal(points));
   layout_ = std::move(layout);
   inspect({&rest, 1}, points, threads, *this, found, report_);
 }
@@ -145,7 +146,7 @@ Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const
     project(rest[0], mesh.points, options.threads, *layout, found);
   else
     share(rest, mesh, options, *layout, found, report_);
-  layout->arrange();
+  layout->arrange(kInPlane * bounding_diagonal(mesh.points));
   layout_ = std::move(layout);
   inspect(rest, mesh.points, options.threads, *this, found, report_);
 }

@@ -3,6 +3,7 @@
 #include <tendril/base/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace tendril::bind {
@@ -31,26 +32,27 @@ class Spans {
   std::vector<std::vector<std::uint32_t>> index_;
 };
 
-/// Counting sort: stable.
-Order sort_by_span(const std::vector<std::uint32_t>& span, std::size_t first_entry, std::size_t spans) {
-  std::vector<std::uint32_t> begin(spans + 1, 0);
-  for (const std::uint32_t s : span) ++begin[s + 1];
-  for (std::size_t s = 0; s < spans; ++s) begin[s + 1] += begin[s];
+/// Counting sort by twice the span, plus 1 off the normal plane: stable.
+Order sort_by_key(const std::vector<std::uint32_t>& key, std::size_t first_entry, std::size_t spans) {
+  const auto keys = static_cast<std::uint32_t>(2 * spans);
+  std::vector<std::uint32_t> begin(keys + 1, 0);
+  for (const std::uint32_t k : key) ++begin[k + 1];
+  for (std::size_t k = 0; k < keys; ++k) begin[k + 1] += begin[k];
   Order order;
-  for (std::uint32_t s = 0; s < spans; ++s)
-    if (begin[s] < begin[s + 1]) order.runs.push_back({s, begin[s], begin[s + 1]});
-  order.entry.resize(span.size());
-  for (std::size_t i = 0; i < span.size(); ++i)
-    order.entry[begin[span[i]]++] = static_cast<std::uint32_t>(first_entry + i);
+  for (std::uint32_t k = 0; k < keys; ++k)
+    if (begin[k] < begin[k + 1]) order.runs.push_back({k / 2, begin[k], begin[k + 1], k % 2 == 1});
+  order.entry.resize(key.size());
+  for (std::size_t i = 0; i < key.size(); ++i)
+    order.entry[begin[key[i]]++] = static_cast<std::uint32_t>(first_entry + i);
   return order;
 }
 
 }  // namespace
 
-std::uint32_t Order::span_of(std::size_t slot) const {
+const Run& Order::run_of(std::size_t slot) const {
   const auto after = std::upper_bound(runs.begin(), runs.end(), slot,
                                       [](std::size_t at, const Run& run) { return at < run.begin; });
-  return std::prev(after)->span;
+  return *std::prev(after);
 }
 
 const Binding::Layout::Blend* Binding::Layout::blend_of(std::size_t point) const {
@@ -59,12 +61,15 @@ const Binding::Layout::Blend* Binding::Layout::blend_of(std::size_t point) const
   return found != blends.end() && found->point == point ? &*found : nullptr;
 }
 
-void Binding::Layout::arrange() {
+void Binding::Layout::arrange(double negligible) {
   Spans all(knots);
   const auto order_of = [&](std::size_t first, std::size_t count) {
-    std::vector<std::uint32_t> span(count);
-    for (std::size_t i = 0; i < count; ++i) span[i] = all.of(pair_of(first + i), entries[first + i].t);
-    return sort_by_span(span, first, all.spans.size());
+    std::vector<std::uint32_t> key(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const AxialPoint& at = entries[first + i];
+      key[i] = 2 * all.of(pair_of(first + i), at.t) + (std::abs(at.w) > negligible ? 1 : 0);
+    }
+    return sort_by_key(key, first, all.spans.size());
   };
   nearest = order_of(0, size);
   others = order_of(size, entries.size() - size);
@@ -79,7 +84,7 @@ void Binding::Layout::arrange() {
         records.s[i] = (at.t - spans[run.span].middle) / spans[run.span].length;
         records.u[i] = at.u;
         records.v[i] = at.v;
-        records.w[i] = at.w;
+        records.w[i] = run.off ? at.w : 0.0;
       }
     return records;
   };

@@ -10,14 +10,15 @@ namespace tendril::bind {
 /// Neighbouring slots on one span.
 struct Run {
   std::uint32_t span, begin, end;
+  bool off;  ///< the normal planes: w is more than rounding
 };
 
-/// Places sorted by span, in each span as they came.
+/// Places sorted by span, those off their normal plane last, in either part as they came.
 struct Order {
   std::vector<std::uint32_t> entry;  ///< of each slot
   std::vector<Run> runs;
 
-  std::uint32_t span_of(std::size_t slot) const;
+  const Run& run_of(std::size_t slot) const;
 };
 
 /// A binding on flat arrays. Its entries are the nearest projection of every point, then the other places in
@@ -51,7 +52,8 @@ struct Binding::Layout {
   std::uint32_t pair_of(std::size_t entry) const { return pair.empty() ? 0 : pair[entry]; }
   const Blend* blend_of(std::size_t point) const;
   /// Fills what follows from the entries: spans, orders, slots, numbers.
-  void arrange();
+  /// \param negligible  w that is left out of the numbers [length]
+  void arrange(double negligible);
   /// InvalidInput unless the curve-pairs are on the knots of the rest.
   void require_same_knots(std::span<const CurvePair> posed) const;
   void require_point(std::size_t point) const;

@@ -60,7 +60,7 @@ template <class T>
 void Placer<T>::mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
                      const ColumnsView<T>& out) const {
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (!place_one(piece, records.from(i)).fault) continue;
+    if (!place_one(piece, part.off, records.from(i)).fault) continue;
     const Triple<T> p = place_by_rule(order.entry[i]);
     out.x[i - part.begin] = p.x;
     out.y[i - part.begin] = p.y;
@@ -76,9 +76,9 @@ void Placer<T>::place(const Pieces& pieces, const Order& order, const Records<T>
                               [](std::size_t at, const Run& r) { return at < r.end; });
   for (; run != order.runs.end() && run->begin < end; ++run) {
     const Run part{run->span, std::max(run->begin, static_cast<std::uint32_t>(begin)),
-                   std::min(run->end, static_cast<std::uint32_t>(end))};
+                   std::min(run->end, static_cast<std::uint32_t>(end)), run->off};
     const ColumnsView<T> to = out.from(part.begin - begin);
-    if (sweep(pieces[part.span], records.from(part.begin), to, part.end - part.begin))
+    if (sweep(pieces[part.span], part.off, records.from(part.begin), to, part.end - part.begin))
       mend(pieces[part.span], order, records, part, to);
   }
 }
@@ -87,7 +87,8 @@ template <class T>
 template <class PieceOf>
 Triple<T> Placer<T>::place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
                                 std::size_t slot) const {
-  const Placed<T> placed = place_one(piece_of(order.span_of(slot)), records.from(slot));
+  const Run& run = order.run_of(slot);
+  const Placed<T> placed = place_one(piece_of(run.span), run.off, records.from(slot));
   return placed.fault ? place_by_rule(order.entry[slot]) : placed.point;
 }
 

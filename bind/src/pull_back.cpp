@@ -26,7 +26,7 @@ std::vector<Run> parts_of(const Order& order) {
   std::vector<Run> parts;
   for (const Run& run : order.runs)
     for (std::uint32_t at = run.begin; at < run.end; at += kPart)
-      parts.push_back({run.span, at, std::min(run.end, static_cast<std::uint32_t>(at + kPart))});
+      parts.push_back({run.span, at, std::min(run.end, static_cast<std::uint32_t>(at + kPart)), run.off});
   return parts;
 }
 
@@ -128,7 +128,7 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
   const auto pieces = pose<double>(layout.spans, posed);
   std::vector<Moments> moments(pieces.size());
   const auto add = [&](const Order& order, const Records<double>& records, std::size_t slot, const Vec3& f) {
-    const std::uint32_t span = order.span_of(slot);
+    const std::uint32_t span = order.run_of(slot).span;
     add_moments(pieces[span], records.from(slot), {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {

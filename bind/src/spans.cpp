@@ -31,6 +31,22 @@ void combine(const Span& span, const std::array<Vec3, kMostTerms>& points,
   }
 }
 
+/// \param size  of the span's control points, relative to one of them
+template <class T>
+void limit(double size, Piece<T>& piece) {
+  double fastest = 0.0;
+  for (std::size_t j = 1; j < kMostTerms; ++j) {
+    double most = 0.0;
+    for (const T x : piece.c[j]) most = std::max(most, std::abs(static_cast<double>(x)));
+    fastest += 2.0 * static_cast<double>(j) * most * std::ldexp(1.0, 1 - static_cast<int>(j));
+  }
+  const double speed = std::max(Limits<T>::least_speed * size, Limits<T>::smallest);
+  const double area = std::max(Limits<T>::least_sine * fastest, Limits<T>::smallest);
+  const bool too_fast = !(fastest * fastest < Limits<T>::largest);
+  piece.least_speed = too_fast ? static_cast<T>(Limits<T>::largest) : static_cast<T>(speed * speed);
+  piece.least_area = static_cast<T>(area * area);
+}
+
 }  // namespace
 
 Span make_span(std::uint32_t pair, const KnotVector& knots, int index) {
@@ -66,20 +82,20 @@ Piece<T> pose(const Span& span, const CurvePair& posed) {
   const Points v = posed.orientation().control_points();
   const Vec3 base = u[span.reference()];
   std::array<Vec3, kMostTerms> from_base, offset;
+  from_base.fill(Vec3::Zero());
+  offset.fill(Vec3::Zero());
   for (std::size_t i = 0; i < span.terms(); ++i) {
     from_base[i] = u[span.first + i] - base;
     offset[i] = v[span.first + i] - u[span.first + i];
   }
   Piece<T> piece;
   piece.degree = span.degree;
-  const double size = largest(from_base, span.terms());
-  const double least = std::max(Limits<T>::least_speed * size, Limits<T>::smallest);
-  piece.least_speed = static_cast<T>(std::min(least * least, Limits<T>::largest));
   const double width = largest(offset, span.terms());
   piece.scale = width > 0.0 ? std::ldexp(1.0, -std::ilogb(width)) : 0.0;
   for (std::size_t i = 0; i < span.terms(); ++i) offset[i] *= piece.scale;
   combine(span, from_base, piece.c, base);
   combine(span, offset, piece.d, Vec3::Zero());
+  limit(largest(from_base, span.terms()), piece);
   return piece;
 }
 

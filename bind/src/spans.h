@@ -35,8 +35,9 @@ template <class T>
 struct Piece {
   int degree = 1;
   std::array<std::array<T, 3>, kMostTerms> c{}, d{};
-  double scale = 0.0;    ///< that power of 2
-  T least_speed = T(0);  ///< square of |dc/ds| below which the loops leave a point to the second pass
+  double scale = 0.0;  ///< that power of 2
+  /// Squares of |dc/ds| and of |offset x dc/ds|; what is not above them the loops leave to the second pass.
+  T least_speed = T(0), least_area = T(0);
 };
 
 template <class T>

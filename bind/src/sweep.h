@@ -22,14 +22,14 @@ struct Limits;
 template <>
 struct Limits<double> {
   static constexpr double least_speed = 1e-8;  ///< |dc/ds| over the reach of the span's control points
-  static constexpr double least_sine = 1e-16;  ///< square of |offset x tangent| over the largest offset
+  static constexpr double least_sine = 1e-8;   ///< |offset x dc/ds| over bounds of both
   static constexpr double smallest = 1e-140;   ///< length
   static constexpr double largest = 1e304;     ///< square of a length
 };
 template <>
 struct Limits<float> {
   static constexpr double least_speed = 1e-2;
-  static constexpr float least_sine = 1e-4f;
+  static constexpr double least_sine = 1e-2;
   static constexpr double smallest = 1e-12;
   static constexpr double largest = 1e36;
 };
@@ -98,9 +98,8 @@ TENDRIL_INLINE Moving<T> moving(const Piece<T>& piece, T s) {
   at.x = cross(at.offset, at.z);
   at.zz = dot(at.z, at.z);
   at.xx = dot(at.x, at.x);
-  at.sound = at.xx > Limits<T>::least_sine * at.zz ? T(1) : T(0);
+  at.sound = at.xx > piece.least_area ? T(1) : T(0);
   at.sound = at.zz > piece.least_speed ? at.sound : T(0);
-  at.sound = at.zz < static_cast<T>(Limits<T>::largest) ? at.sound : T(0);
   return at;
 }
 
@@ -122,28 +121,30 @@ struct Placed {
   Flag<T> fault;  ///< not 0: not to be used
 };
 
-/// c + u l_x + v l_y + w l_z.
-template <class T, int P>
+/// c + u l_x + v l_y + w l_z, the last only where the record is off the normal plane.
+template <class T, int P, bool Off>
 TENDRIL_INLINE Placed<T> place(const Piece<T>& piece, T s, T u, T v, T w) {
   const Moving<T> at = moving<T, P>(piece, s);
   const Lengths<T> inverse = inverse_lengths(at);
   const Triple<T> y = cross(at.z, at.x);
-  return {((at.origin + (u * inverse.x) * at.x) + (v * inverse.both) * y) + (w * inverse.z) * at.z,
-          std::bit_cast<Flag<T>>(T(1) - at.sound)};
+  Triple<T> point = (at.origin + (u * inverse.x) * at.x) + (v * inverse.both) * y;
+  if constexpr (Off) point = point + (w * inverse.z) * at.z;
+  return {point, std::bit_cast<Flag<T>>(T(1) - at.sound)};
 }
 
 /// Places `count` points; true when one was left to the second pass.
+/// \param off  false: w is 0 for all, and is not read
 template <class T>
-bool sweep(const Piece<T>& piece, const RecordsView<T>& records, const ColumnsView<T>& out,
+bool sweep(const Piece<T>& piece, bool off, const RecordsView<T>& records, const ColumnsView<T>& out,
            std::size_t count);
 
 /// The same on a vector unit that the machine has.
 template <class T>
-bool sweep_on(VectorUnit unit, const Piece<T>& piece, const RecordsView<T>& records,
+bool sweep_on(VectorUnit unit, const Piece<T>& piece, bool off, const RecordsView<T>& records,
               const ColumnsView<T>& out, std::size_t count);
 
 /// One point, the same bits.
 template <class T>
-Placed<T> place_one(const Piece<T>& piece, const RecordsView<T>& record);
+Placed<T> place_one(const Piece<T>& piece, bool off, const RecordsView<T>& record);
 
 }  // namespace tendril::bind

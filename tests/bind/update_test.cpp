@@ -128,7 +128,7 @@ TEST(Update, LeavesPointsWithoutFrameToTheRulesOfTheCurvePair) {
 }
 
 template <class T>
-void expect_same_on_every_unit(int degree) {
+void expect_same_on_every_unit(int degree, bool off) {
   const Case c = make_case(degree, 1);
   test::Random random(7);
   for (const int span : c.posed[0].knots().nonempty_spans()) {
@@ -138,22 +138,24 @@ void expect_same_on_every_unit(int degree) {
       for (T& value : *column) value = static_cast<T>(random.uniform(-0.5, 0.5));
     Arrays<T> plain(203), wide(203);
     const auto view = [](Arrays<T>& a) { return ColumnsView<T>{a.x.data(), a.y.data(), a.z.data()}; };
-    sweep_on(VectorUnit::plain, piece, records.from(0), view(plain), 203);
+    sweep_on(VectorUnit::plain, piece, off, records.from(0), view(plain), 203);
     for (const VectorUnit unit : {VectorUnit::bits_256, VectorUnit::bits_512}) {
       if (unit > widest_unit()) continue;
-      sweep_on(unit, piece, records.from(0), view(wide), 203);
+      sweep_on(unit, piece, off, records.from(0), view(wide), 203);
       EXPECT_EQ(plain.x, wide.x);
       EXPECT_EQ(plain.y, wide.y);
       EXPECT_EQ(plain.z, wide.z);
     }
     for (std::size_t i = 0; i < 203; i += 10)
-      EXPECT_EQ(place_one(piece, records.from(i)).point.y, plain.y[i]);
+      EXPECT_EQ(place_one(piece, off, records.from(i)).point.y, plain.y[i]);
   }
 }
 
 TEST_P(EveryDegree, SameBitsOnEveryVectorUnit) {
-  expect_same_on_every_unit<double>(GetParam());
-  expect_same_on_every_unit<float>(GetParam());
+  for (const bool off : {false, true}) {
+    expect_same_on_every_unit<double>(GetParam(), off);
+    expect_same_on_every_unit<float>(GetParam(), off);
+  }
 }
 
 TEST(Update, KeepsAnySizeAndPlace) {

@@ -25,10 +25,10 @@ namespace tendril::bind {
 /// by BindMode::nearest, to the last bit. A projection counts only where a way over the mesh joins it to a
 /// point it is the nearest of.
 ///
-/// An update goes span by span through records in binding order: points sorted by curve-pair and span, within
-/// a span as they were given. The same bits for any number of threads, on any vector unit, and for a point
-/// alone. Memory: about 80 bytes a place. Making it costs a projection a point, an update two polynomials and
-/// a frame for each place in use.
+/// An update goes span by span through records in binding order: points sorted by curve-pair and span, those
+/// off the normal plane of their projection last, otherwise as they were given. The same bits for any number
+/// of threads, on any vector unit, and for a point alone. Memory: about 80 bytes a place. Making it costs a
+/// projection a point, an update two polynomials and a frame for each place in use.
 class Binding {
  public:
   /// Each point to its nearest projection.
