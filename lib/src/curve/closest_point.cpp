@@ -29,7 +29,8 @@ struct CurveProjector::Data {
   virtual ~Data() = default;
 
   struct Found {
-    double t, distance, gap;
+    double t;
+    double least;  ///< proven: no distance is smaller
   };
   /// \param hint  a parameter, NaN for none: its sub-piece is examined first
   virtual Found find(const Vec3& p, const Bounds& bounds, double hint) const = 0;
@@ -106,7 +107,7 @@ struct DataOfDegree final : CurveProjector::Data {
           if (piece != first) search.examine(pieces[piece]);
         });
     search.finish();
-    return {search.t(), search.distance(), search.gap()};
+    return {search.t(), search.least()};
   }
 
   std::size_t piece_at(double t) const {
@@ -194,13 +195,11 @@ Projection describe(const CurveProjector::Data& data, const Vec3& p,
   const double t = found.t;
   const int span = knots.span(t);
   const Basis basis = knots.basis_in_span(t, span, 2);
-  Projection result{t,
-                    combine(basis, curve.degree(), curve.control_points()),
-                    found.distance,
-                    ProjectionKind::interior,
-                    0.0,
-                    found.gap};
+  Projection result{
+      t, combine(basis, curve.degree(), curve.control_points()), 0.0, ProjectionKind::interior, 0.0, 0.0};
   const Vec3 offset = result.point - p;
+  result.distance = offset.norm();
+  result.gap = std::max(0.0, result.distance - std::max(0.0, found.least));
   const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
   const bool rest = at_rest(data, d1, span);
   if (!rest) {
@@ -272,13 +271,13 @@ std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, 
   // Where the distance is flat to rounding the sweep places its minimum better.
   const bool same = !known || std::abs(minima[first].t - nearest.t) <= 1e-7 * domain;
   const Projection front =
-      same ? nearest : describe(data, p, {minima[first].t, minima[first].distance, minima[first].gap});
+      same ? nearest : describe(data, p, {minima[first].t, minima[first].distance - minima[first].gap});
   std::vector<LocalMinimum> result;
   result.push_back({front, strength(data.curve, front, p), !known || minima[first].cluster,
                     known ? minima[first].multiplicity : 1});
   for (std::size_t i = 0; i < minima.size(); ++i) {
     if (i == first) continue;
-    const Projection at = describe(data, p, {minima[i].t, minima[i].distance, minima[i].gap});
+    const Projection at = describe(data, p, {minima[i].t, minima[i].distance - minima[i].gap});
     result.push_back({at, strength(data.curve, at, p), minima[i].cluster, minima[i].multiplicity});
   }
   return result;

@@ -197,13 +197,17 @@ class Search {
   double cut() const { return cut_; }
   /// Compares the candidates left; what follows is asked for afterwards.
   void finish() {
+    std::size_t left = 0;
     for (std::size_t i = 0; i < waiting_; ++i)
-      if (candidates_[i].local <= cut_) evaluate(candidates_[i].t);
-    waiting_ = 0;
+      if (candidates_[i].local <= cut_) candidates_[left++] = candidates_[i];
+    waiting_ = left;
+    if (left == 1 && std::isinf(distance_))
+      t_ = candidates_[0].t;  // nothing to compare with
+    else
+      compare();
   }
   double t() const { return t_; }
-  double distance() const { return distance_; }
-  double gap() const { return std::max(0.0, distance_ - std::max(0.0, proven_)); }
+  double least() const { return proven_; }
 
   void examine(const Piece<P>& piece) {
     // Right halves wait; depth first leaves at most one per level.
@@ -273,9 +277,14 @@ class Search {
   /// of the search the cut may still fall
   void candidate(double t, double local) {
     if (local > cut_) return;
-    if (waiting_ == candidates_.size()) finish();
+    if (waiting_ == candidates_.size()) compare();
     candidates_[waiting_++] = {t, local};
     lower_cut(local);
+  }
+
+  void compare() {
+    for (std::size_t i = 0; i < waiting_; ++i) evaluate(candidates_[i].t);
+    waiting_ = 0;
   }
 
   void evaluate(double t) {

@@ -45,13 +45,15 @@ void check_multiplicity(std::span<const double> knots, int degree) {
 
 using Row = std::array<double, kMaxDegree + 1>;
 
-std::size_t idx(int i) {
+#define TENDRIL_INLINE inline __attribute__((always_inline))
+
+TENDRIL_INLINE std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
 /// Values of degree D from those of degree D - 1 (Cox, de Boor). `knot` points at the span's first knot.
 template <int D>
-Row raise_value(const Row& lower, const double* knot, double t) {
+TENDRIL_INLINE Row raise_value(const Row& lower, const double* knot, double t) {
   Row row{};
   for (int j = 0; j < D; ++j) {
     const double left = knot[j + 1 - D];
@@ -66,7 +68,7 @@ Row raise_value(const Row& lower, const double* knot, double t) {
 /// One differentiation: N'_{i,D} = D (N_{i,D-1} / (k_{i+D} - k_i) - N_{i+1,D-1} / (k_{i+D+1} - k_{i+1})),
 /// applied to any linear combination of derivatives of the lower row.
 template <int D>
-Row raise_derivative(const Row& lower, const double* knot) {
+TENDRIL_INLINE Row raise_derivative(const Row& lower, const double* knot) {
   Row row{};
   for (int j = 0; j < D; ++j) {
     const double share = D * lower[idx(j)] / (knot[j + 1] - knot[j + 1 - D]);
@@ -80,7 +82,7 @@ using Rows = std::array<Row, kMaxDegree + 1>;
 
 /// rows[d] for d = 1 to P: the d + 1 functions of degree d that live in the span. Unrolled for each degree.
 template <int P>
-void fill_values(Rows& rows, const double* knot, double t) {
+TENDRIL_INLINE void fill_values(Rows& rows, const double* knot, double t) {
   if constexpr (P > 0) {
     fill_values<P - 1>(rows, knot, t);
     rows[P] = raise_value<P>(rows[P - 1], knot, t);
@@ -89,7 +91,7 @@ void fill_values(Rows& rows, const double* knot, double t) {
 
 /// A row of degree D raised to degree P by differentiations.
 template <int P, int D>
-Row differentiate(const Row& row, const double* knot) {
+TENDRIL_INLINE Row differentiate(const Row& row, const double* knot) {
   if constexpr (D == P)
     return row;
   else
