@@ -273,7 +273,7 @@ System::Workspace::Workspace(const Model& model) : pose(model.scene.anchors.size
                         &g_spin, &g_length, &twist_torque, &energy, &heat})
     *numbers = Column(n);
   if (!model.loaded) return;
-  for (auto* vectors : {&seen_p, &seen_v, &seen_t, &load, &torque}) vectors->assign(n, Vec3::Zero());
+  for (auto* vectors : {&seen_p, &seen_v, &seen_t, &seen_m, &load, &torque}) vectors->assign(n, Vec3::Zero());
   seen_spin.assign(n, 0.0);
 }
 

@@ -21,9 +21,11 @@ StateView view(const System::Model& model, double t, System::Workspace& work) {
     work.seen_p[i] = work.p[i];
     work.seen_v[i] = work.v[i];
     work.seen_t[i] = work.frame.z[i];
+    work.seen_m[i] = model.has_twist(i) ? work.frame.y[i] : Vec3(Vec3::Zero());
     work.seen_spin[i] = work.spin[i];
   }
-  return {t, work.seen_p, work.seen_v, work.seen_t, work.seen_spin, model.mass, model.width, model.rods};
+  return {t,          work.seen_p, work.seen_v, work.seen_t, work.seen_spin,
+          model.mass, model.width, model.rods,  work.seen_m};
 }
 
 namespace {
