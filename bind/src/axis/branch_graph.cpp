@@ -7,6 +7,7 @@ namespace tendril::axis {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
+constexpr double kFork = 1.3;  ///< prongs whose reaches differ by less are alike
 
 Line reversed(Line line) {
   std::reverse(line.begin(), line.end());
@@ -95,10 +96,10 @@ struct Leaf {
   Twig twig;
 };
 
-/// The twig of least reach, or none.
-std::optional<Leaf> least_leaf(const BranchGraph& graph, const Clearance& clearance) {
+/// Branches with one end free and the other a junction.
+std::vector<Leaf> leaves_of(const BranchGraph& graph, const Clearance& clearance) {
   const std::vector<int> degree = graph.degrees();
-  std::optional<Leaf> least;
+  std::vector<Leaf> out;
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
     const Branch& branch = graph.branches[b];
     const bool free_from = degree[branch.from] == 1, free_to = degree[branch.to] == 1;
@@ -108,10 +109,24 @@ std::optional<Leaf> least_leaf(const BranchGraph& graph, const Clearance& cleara
     double farthest = 0.0;
     for (const Vec3& p : line) farthest = std::max(farthest, (p - line.front()).norm() + clearance(p));
     const double reach = farthest / clearance(line.front());
-    if (!least || reach < least->twig.reach)
-      least = {b, root, {line.front(), line.back(), length_of(line), reach}};
+    out.push_back({b, root, {line.front(), line.back(), length_of(line), reach}});
   }
-  return least;
+  return out;
+}
+
+/// The leaf of least reach; and, where a fork at the end of a limb is about to be cut, its other prong when
+/// that is hardly longer: neither goes on along the limb.
+std::vector<Leaf> least_leaves(const BranchGraph& graph, const Clearance& clearance) {
+  const std::vector<Leaf> leaves = leaves_of(graph, clearance);
+  if (leaves.empty()) return {};
+  const auto shorter = [](const Leaf& a, const Leaf& b) { return a.twig.reach < b.twig.reach; };
+  const Leaf least = *std::min_element(leaves.begin(), leaves.end(), shorter);
+  std::vector<Leaf> fork;
+  for (const Leaf& leaf : leaves)
+    if (leaf.root == least.root && leaf.branch != least.branch) fork.push_back(leaf);
+  if (graph.degrees()[least.root] != 3 || fork.size() != 1) return {least};
+  if (fork[0].twig.reach > kFork * least.twig.reach) return {least};
+  return {least, fork[0]};
 }
 
 /// The two halves of a line about the place `length` along it, which both hold.
@@ -192,11 +207,14 @@ BranchGraph branches_of(const Skeleton& skeleton) {
 std::vector<Twig> prune(BranchGraph& graph, double least_reach, const Clearance& clearance) {
   std::vector<Twig> out;
   for (;;) {
-    const std::optional<Leaf> leaf = least_leaf(graph, clearance);
-    if (!leaf || leaf->twig.reach >= least_reach) return out;
-    out.push_back(leaf->twig);
-    graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(leaf->branch));
-    smooth_over(graph, leaf->root);
+    std::vector<Leaf> cut = least_leaves(graph, clearance);
+    std::erase_if(cut, [&](const Leaf& leaf) { return leaf.twig.reach >= least_reach; });
+    if (cut.empty()) return out;
+    for (const Leaf& leaf : cut) out.push_back(leaf.twig);
+    std::sort(cut.begin(), cut.end(), [](const Leaf& a, const Leaf& b) { return a.branch > b.branch; });
+    for (const Leaf& leaf : cut)
+      graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(leaf.branch));
+    smooth_over(graph, cut.front().root);
   }
 }
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "centre.h"
 #include "path_fit.h"
 #include "paths.h"
 #include "prepare.h"
@@ -16,7 +18,7 @@ namespace tendril::axis {
 namespace {
 
 constexpr std::size_t kSamples = 200;  ///< of a path to be fitted
-constexpr int kTries = 4;              ///< at a curve within the surface, each twice as close to the skeleton
+constexpr int kTries = 3;              ///< at a curve within the surface, each twice as close to the skeleton
 
 void check(const AxisOptions& options) {
   const auto require = [](bool right, const char* name, double value, const char* expected) {
@@ -47,7 +49,7 @@ class Fitter {
         joint = joint_of(path, paths[*path.parent]);
         path.line.front() = curves_[joint->parent].points[joint->node];
       }
-      AxisCurve curve = fit_within(path.line);
+      AxisCurve curve = fit_within(path);
       curve.joint = joint;
       orient(curve);
       curves_.push_back(std::move(curve));
@@ -56,34 +58,29 @@ class Fitter {
   }
 
  private:
-  /// The parent's node nearest to the place, by length along its path; never an end where another will do.
+  /// The parent's node at the place where the path leaves it.
   AxisJoint joint_of(const Path& path, const Path& parent) const {
     const auto at = std::find(parent.places.begin(), parent.places.end(), path.places.front());
-    const double part =
-        parent.along[static_cast<std::size_t>(at - parent.places.begin())] / parent.along.back();
-    const auto edges = static_cast<double>(curves_[*path.parent].points.size() - 1);
-    return {*path.parent, static_cast<std::size_t>(std::lround(part * edges))};
+    return {*path.parent, nodes_[*path.parent][static_cast<std::size_t>(at - parent.places.begin())]};
   }
 
-  AxisCurve fit_within(const Line& line) const {
-    const Line samples = evenly(line, kSamples);
-    std::vector<double> width;
-    for (const Vec3& p : samples) width.push_back(std::max(surface_.distance(p), 1e-6));
+  AxisCurve fit_within(const Path& path) {
+    const Line samples = centred(evenly(path.line, kSamples), surface_);
+    const std::vector<double> width = half_widths(samples, surface_);
     std::optional<AxisCurve> best;
+    nodes_.emplace_back();
     double closer = 1.0;
-    for (int k = 0; k < kTries && (!best || best->outside > 0); ++k, closer *= 0.5) {
-      AxisCurve curve = chain(fit(samples, width, closer * options_.tolerance), length_of(line), closer);
+    for (int k = 0; k < kTries && (!best || best->outside > 0 || best->strays > 1.0); ++k, closer *= 0.5) {
+      const Spread spread = spread_nodes(path, closer * spacing_);
+      const BSpline fitted = fit(samples, width, closer * options_.tolerance);
+      AxisCurve curve;
+      for (const double t : spread.parameters) curve.points.push_back(fitted.value(t));
       measure(curve, samples, width);
-      if (!best || curve.outside < best->outside) best = std::move(curve);
+      if (best && std::tie(curve.outside, curve.strays) >= std::tie(best->outside, best->strays)) continue;
+      best = std::move(curve);
+      nodes_.back() = spread.node_of_place;
     }
     return *best;
-  }
-
-  AxisCurve chain(const BSpline& fitted, double length, double closer) const {
-    const double edges = std::clamp(std::round(length / (closer * spacing_)), 3.0, 10000.0);
-    AxisCurve curve;
-    for (double k = 0.0; k <= edges; ++k) curve.points.push_back(fitted.value(k / edges));
-    return curve;
   }
 
   void measure(AxisCurve& curve, const Line& samples, const std::vector<double>& width) const {
@@ -130,6 +127,7 @@ class Fitter {
   const AxisOptions& options_;
   double spacing_;
   std::vector<AxisCurve> curves_;
+  std::vector<std::vector<std::size_t>> nodes_;  ///< of the places of each path
 };
 
 /// Back to where the mesh was.

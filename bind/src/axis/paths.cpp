@@ -1,6 +1,7 @@
 #include "paths.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tendril::axis {
 namespace {
@@ -93,6 +94,32 @@ std::vector<Path> paths_of(const BranchGraph& tree) {
     for (const std::uint32_t place : places)
       for (const std::size_t b : ways.open(place)) out.push_back(ways.take(place, ways.along(place, b), p));
   }
+  return out;
+}
+
+Spread spread_nodes(const Path& path, double spacing) {
+  const double length = path.along.back();
+  std::vector<double> stops{0.0};
+  std::vector<std::size_t> stop_of_place;
+  for (const double along : path.along) {
+    const bool apart = along - stops.back() >= 0.5 * spacing && length - along >= 0.5 * spacing;
+    if (apart) stops.push_back(along);
+    stop_of_place.push_back(stops.size() - (along == length || length - along < 0.5 * spacing ? 0 : 1));
+  }
+  stops.push_back(length);
+  stop_of_place.front() = 0;
+  const std::size_t pieces = stops.size() - 1;
+  const double least = std::ceil(3.0 / static_cast<double>(pieces));
+  Spread out{{0.0}, {}};
+  std::vector<std::size_t> node_of_stop{0};
+  for (std::size_t k = 1; k < stops.size(); ++k) {
+    const double step = stops[k] - stops[k - 1];
+    const double edges = std::clamp(std::round(step / spacing), least, 10000.0);
+    for (double e = 1.0; e <= edges; ++e)
+      out.parameters.push_back((stops[k - 1] + step * e / edges) / length);
+    node_of_stop.push_back(out.parameters.size() - 1);
+  }
+  for (const std::size_t stop : stop_of_place) out.node_of_place.push_back(node_of_stop[stop]);
   return out;
 }
 

@@ -16,4 +16,14 @@ struct Path {
 /// longest from each branch that leaves it. \param tree  without loops, connected
 std::vector<Path> paths_of(const BranchGraph& tree);
 
+/// Nodes along a path, 0 at its start and 1 at its end, with one at each of its places; places nearer than
+/// half of `spacing` to one before them, or to the end, share its node.
+struct Spread {
+  std::vector<double> parameters;
+  std::vector<std::size_t> node_of_place;
+};
+
+/// \param spacing  between nodes, about [length]; there are four at least
+Spread spread_nodes(const Path& path, double spacing);
+
 }  // namespace tendril::axis

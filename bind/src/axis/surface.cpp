@@ -37,8 +37,22 @@ struct Surface::Implementation {
 Surface::Surface(const bind::PolygonMesh& mesh) : self_(std::make_unique<Implementation>(to_cgal(mesh))) {}
 Surface::~Surface() = default;
 
+Vec3 Surface::nearest(const Vec3& p) const {
+  const Kernel::Point_3 q = self_->tree.closest_point(point(p));
+  return {q.x(), q.y(), q.z()};
+}
+
 double Surface::distance(const Vec3& p) const {
   return std::sqrt(self_->tree.squared_distance(point(p)));
+}
+
+std::optional<double> Surface::first_hit(const Vec3& p, const Vec3& d) const {
+  const Kernel::Ray_3 ray(point(p), Kernel::Vector_3(d.x(), d.y(), d.z()));
+  const auto hit = self_->tree.first_intersection(ray);
+  if (!hit) return std::nullopt;
+  const auto* at = boost::get<Kernel::Point_3>(&hit->first);
+  if (at == nullptr) return std::nullopt;  // along a triangle
+  return (Vec3(at->x(), at->y(), at->z()) - p).dot(d);
 }
 
 bool Surface::holds(const Vec3& p) const {

@@ -23,7 +23,7 @@ struct AxisOptions {
 
   /// Coarser meshes are split at the middles of their edges first: the contraction of a coarse one loses
   /// limbs.
-  std::size_t least_points = 8000;
+  std::size_t least_points = 4000;
   /// Seconds for the contraction of the surface, which may take for ever. Above 0.
   double time_limit = 60.0;
 };
