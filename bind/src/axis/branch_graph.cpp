@@ -7,7 +7,8 @@ namespace tendril::axis {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
-constexpr double kFork = 1.3;  ///< prongs whose reaches differ by less are alike
+constexpr double kBlunt = 0.4;  ///< a limb narrows less steeply, a way into a corner more
+constexpr double kFork = 1.3;   ///< prongs whose reaches differ by less are alike
 
 Line reversed(Line line) {
   std::reverse(line.begin(), line.end());
@@ -146,6 +147,18 @@ std::array<Line, 2> cut_at(const Line& line, double length) {
   return {first, second};
 }
 
+/// How many of the first points of a line lie where it runs into a corner, at most to its middle: so far its
+/// clearance grows faster than kBlunt with the length.
+std::size_t blunt(const Line& line, const Clearance& clearance) {
+  const double half = 0.5 * length_of(line), first = clearance(line.front());
+  double length = 0.0;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+    length += (line[k] - line[k - 1]).norm();
+    if (length > half || clearance(line[k]) - first < kBlunt * length) return k - 1;
+  }
+  return 0;
+}
+
 struct Reached {
   std::vector<double> distance;      ///< of the places from the start, along branches
   std::vector<std::size_t> through;  ///< branch that each was reached by, or none
@@ -237,6 +250,19 @@ void merge_junctions(BranchGraph& graph, const Clearance& clearance) {
     }
     b = 0;
   }
+}
+
+void trim_ends(BranchGraph& graph, const Clearance& clearance) {
+  const std::vector<int> degree = graph.degrees();
+  for (Branch& branch : graph.branches)
+    for (const std::uint32_t end : {branch.from, branch.to}) {
+      if (degree[end] != 1) continue;
+      Line line = from_place(branch, end);
+      const std::size_t cut = blunt(line, clearance);
+      line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(cut));
+      graph.places[end] = line.front();
+      branch.line = branch.from == end ? std::move(line) : reversed(std::move(line));
+    }
 }
 
 std::vector<Vec3> cut_loops(BranchGraph& graph, const Clearance& clearance) {

@@ -42,6 +42,9 @@ std::vector<Twig> prune(BranchGraph& graph, double least_reach, const Clearance&
 /// of the two clearances goes, and those beyond it start where it started.
 void merge_junctions(BranchGraph& graph, const Clearance& clearance);
 
+/// Takes off free ends what runs into a corner, or on to the surface, from the middle of a blunt end.
+void trim_ends(BranchGraph& graph, const Clearance& clearance);
+
 /// Cuts each loop where the two ways round it from the place of the largest clearance meet.
 std::vector<Vec3> cut_loops(BranchGraph& graph, const Clearance& clearance);
 

@@ -178,6 +178,7 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
   note_skeleton(graph, tree.report);
   tree.report.twigs = prune(graph, options.prune, clearance);
   merge_junctions(graph, clearance);
+  trim_ends(graph, clearance);
   tree.report.cuts = cut_loops(graph, clearance);
   std::vector<Path> paths = paths_of(graph);
   if (paths.empty()) return tree;
