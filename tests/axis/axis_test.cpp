@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <tendril/axis/find_axis.h>
 
+#include <memory>
+
 #include "axis/shapes.h"
 
 namespace tendril::test {
@@ -111,6 +113,28 @@ TEST(Axis, GrowsAndMovesWithTheMesh) {
   const axis::AxisCurve moved = axis::find_axis(changed).curves[0];
   EXPECT_NEAR(moved.length, here.length, 0.02);  // rounding is felt in what the contraction collapses
   EXPECT_LT((moved.points[20] - here.points[20] - Vec3(40, 0.3, -8)).norm(), 0.02);
+}
+
+/// Leaves the heap so that what is allocated next comes to lie in no order.
+void scramble_the_heap() {
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (std::size_t k = 0; k < 200000; ++k)
+    blocks.push_back(std::make_unique<char[]>(16 + 16 * (k * 7919 % 40)));
+  for (std::size_t k = 0; k < blocks.size(); ++k) std::swap(blocks[k], blocks[k * 104729 % blocks.size()]);
+  for (std::size_t k = 0; k < blocks.size(); k += 2) blocks[k].reset();
+}
+
+TEST(Axis, GivesTheSameBitsWhateverTheHeapIsLike) {
+  const bind::PolygonMesh mesh = three_tubes();
+  const axis::AxisTree one = axis::find_axis(mesh);
+  scramble_the_heap();
+  const axis::AxisTree two = axis::find_axis(mesh);
+  ASSERT_EQ(one.curves.size(), two.curves.size());
+  for (std::size_t k = 0; k < one.curves.size(); ++k) {
+    EXPECT_EQ(one.curves[k].points, two.curves[k].points);
+    EXPECT_EQ(one.curves[k].orientation, two.curves[k].orientation);
+    EXPECT_EQ(one.curves[k].radius, two.curves[k].radius);
+  }
 }
 
 TEST(Axis, SpacingIsAsAsked) {
