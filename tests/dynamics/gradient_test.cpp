@@ -59,6 +59,37 @@ TEST_P(EveryEnergy, GradientMatchesDifferencesInStirredStates) {
   }
 }
 
+// Forces of small angles come from series, energies and their gradient from angles.
+TEST(Forces, AreTheGradientWhetherAnglesAreSmallOrNot) {
+  Random random(19);
+  for (const auto twist : {Scene::Twist::everywhere, Scene::Twist::where_needed})
+    for (const double by : {1e-9, 1e-4, 1e-2, 0.05, 0.1, 0.2, 0.3}) {
+      Scene scene;
+      scene.rods.push_back(test::straight_rod(300, 1e6, 0.3));
+      for (Vec3& p : scene.rods[0].p) p *= 300.0;
+      for (Vec3& q : scene.rods[0].q) q.x() *= 300.0;
+      if (twist == Scene::Twist::everywhere) scene.rods[0].bend_t = scene.rods[0].bend_l;
+      scene.twist = twist;
+      const System system(scene);
+      const State state = test::stirred(system, random, by);
+      const auto work = system.make_workspace();
+      double energy = 0.0;
+      Eigen::VectorXd gradient;
+      Eigen::VectorXd rate;
+      ASSERT_TRUE(system.elastic_gradient(state, 0.0, state.y, energy, gradient, *work).ok());
+      State still = state;
+      const auto n = static_cast<Eigen::Index>(system.node_count());
+      still.y.tail(still.y.size() - 3 * n).setZero();
+      ASSERT_TRUE(system.derivative(still, 0.0, still.y, rate, *work).ok());
+      double worst = 0.0;
+      for (Eigen::Index k = 0; k < 3 * n; ++k)
+        worst = std::max(
+            worst,
+            std::abs(scene.rods[0].mass[static_cast<std::size_t>(k / 3)] * rate[3 * n + k] + gradient[k]));
+      EXPECT_LT(worst, 1e-14 * gradient.head(3 * n).cwiseAbs().maxCoeff()) << "stirred by " << by;
+    }
+}
+
 TEST_P(EveryEnergy, GradientMatchesDifferencesWithHeldFrames) {
   Random random(18);
   Scene scene;

@@ -88,7 +88,7 @@ struct Parts {
 };
 
 /// The scalar elimination, block by block: D = L U, upper blocks L^-1 A, lower blocks A U^-1 (in the
-/// symmetric case their transposes times the inverse pivots, made on the way).
+/// symmetric case the transposes of the upper ones times the inverse pivots).
 template <int B, bool Symmetric>
 TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m) {
   for (std::size_t k = 0; k < pattern.size(); ++k) {
@@ -97,23 +97,22 @@ TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m
     const std::size_t begin = pattern.begin(k);
     const std::size_t count = pattern.begin(k + 1) - begin;
     const std::size_t* pair = pattern.pairs(k);
-    Block<B> low[BlockPattern::kMostLater];
     for (std::size_t a = 0; a < count; ++a) {
       Block<B>& upper = m.upper[begin + a];
       for (std::size_t c = 0; c < B; ++c) substitute_lower<B>(factors, upper.column[c].data());
+      Block<B>& lower = m.lower[begin + a];
       if constexpr (Symmetric) {
-        transpose<B>(upper, low[a]);
-        for (std::size_t c = 0; c < B; ++c) four(low[a].column[c]) *= factors.column[c][c];
+        transpose<B>(upper, lower);
+        for (std::size_t c = 0; c < B; ++c) four(lower.column[c]) *= factors.column[c][c];
       } else {
-        divide_by_upper<B>(factors, m.lower[begin + a]);
-        low[a] = m.lower[begin + a];
+        divide_by_upper<B>(factors, lower);
       }
     }
     for (std::size_t a = 0; a < count; ++a) {
-      subtract_product<B>(low[a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
+      subtract_product<B>(m.lower[begin + a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
       for (std::size_t b = a + 1; b < count; ++b, ++pair) {
-        subtract_product<B>(low[a], m.upper[begin + b], m.upper[*pair]);
-        if constexpr (!Symmetric) subtract_product<B>(low[b], m.upper[begin + a], m.lower[*pair]);
+        subtract_product<B>(m.lower[begin + a], m.upper[begin + b], m.upper[*pair]);
+        if constexpr (!Symmetric) subtract_product<B>(m.lower[begin + b], m.upper[begin + a], m.lower[*pair]);
       }
     }
   }
@@ -134,36 +133,19 @@ TENDRIL_INLINE void subtract(const Block<B>& a, const double* x, Four& from) {
   from -= sum;
 }
 
-/// The first B of a^T x.
-template <int B>
-TENDRIL_INLINE void subtract_transposed(const Block<B>& a, const double* x, double* to) {
-  for (std::size_t c = 0; c < B; ++c) {
-    double sum = a.column[c][0] * x[0];
-    for (std::size_t k = 1; k < B; ++k) sum += a.column[c][k] * x[k];
-    to[c] -= sum;
-  }
-}
-
 TENDRIL_INLINE Four& at(double* x) {
   return *reinterpret_cast<Four*>(x);
 }
 
-template <int B, bool Symmetric>
+template <int B>
 TENDRIL_INLINE void solve_blocks(const BlockPattern& pattern, const Block<B>* diagonal, const Block<B>* upper,
                                  const Block<B>* lower, double* b) {
   const std::size_t n = pattern.size();
   for (std::size_t k = 0; k < n; ++k) {
     double* x = b + 4 * k;
     substitute_lower<B>(diagonal[k], x);
-    double scaled[4] = {};
-    for (std::size_t c = 0; c < B; ++c) scaled[c] = diagonal[k].column[c][c] * x[c];
-    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
-      double* to = b + 4 * pattern.later(e);
-      if constexpr (Symmetric)
-        subtract_transposed<B>(upper[e], scaled, to);
-      else
-        subtract<B>(lower[e], x, at(to));
-    }
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
+      subtract<B>(lower[e], x, at(b + 4 * pattern.later(e)));
   }
   for (std::size_t k = n; k-- > 0;) {
     Four sum = at(b + 4 * k);
@@ -185,26 +167,58 @@ TENDRIL_LANES bool factor_three(const BlockPattern& p, const Parts<3>& m) {
 TENDRIL_LANES bool factor_four(const BlockPattern& p, const Parts<4>& m) {
   return factor_blocks<4, false>(p, m);
 }
-TENDRIL_LANES void solve_symmetric(const BlockPattern& p, const Block<3>* d, const Block<3>* u, double* b) {
-  solve_blocks<3, true>(p, d, u, nullptr, b);
-}
 TENDRIL_LANES void solve_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u, const Block<3>* l,
                                double* b) {
-  solve_blocks<3, false>(p, d, u, l, b);
+  solve_blocks<3>(p, d, u, l, b);
 }
 TENDRIL_LANES void solve_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u, const Block<4>* l,
                               double* b) {
-  solve_blocks<4, false>(p, d, u, l, b);
+  solve_blocks<4>(p, d, u, l, b);
+}
+
+/// to = -(a + s b), of all the numbers of some blocks; without b where it is null.
+TENDRIL_LANES void negate(std::size_t count, const double* __restrict a, double s, const double* __restrict b,
+                          double* __restrict to) {
+  if (!b) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = -a[i];
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) to[i] = -a[i] - s * b[i];
 }
 
 template <int B>
 void negate(const std::vector<Block<B>>& a, double s, const std::vector<Block<B>>* b,
             std::vector<Block<B>>& to) {
-  for (std::size_t i = 0; i < to.size(); ++i)
-    for (std::size_t c = 0; c < B; ++c) {
-      four(to[i].column[c]) = -four(a[i].column[c]);
-      if (b) four(to[i].column[c]) -= s * four((*b)[i].column[c]);
+  if (to.empty()) return;
+  const auto numbers = [](const auto& blocks) { return blocks.front().column.front().data(); };
+  negate(4 * B * to.size(), numbers(a), s, b ? numbers(*b) : nullptr, to.front().column.front().data());
+}
+
+/// y += s A x
+template <int B>
+TENDRIL_INLINE void multiply_add_blocks(const BlockPattern& pattern, const Block<B>* diagonal,
+                                        const Block<B>* upper, const Block<B>* lower, double s,
+                                        const double* x, double* y) {
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    Four sum;
+    apply<B>(diagonal[k], x + 4 * k, sum);
+    at(y + 4 * k) += s * sum;
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+      const std::size_t other = 4 * pattern.later(e);
+      apply<B>(upper[e], x + other, sum);
+      at(y + 4 * k) += s * sum;
+      apply<B>(lower[e], x + 4 * k, sum);
+      at(y + other) += s * sum;
     }
+  }
+}
+TENDRIL_LANES void multiply_add_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u,
+                                      const Block<3>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<3>(p, d, u, l, s, x, y);
+}
+TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u,
+                                     const Block<4>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<4>(p, d, u, l, s, x, y);
 }
 
 }  // namespace
@@ -226,22 +240,10 @@ typename BlockMatrix<B>::Block* BlockMatrix<B>::find(std::size_t row_node, std::
 }
 
 template <int B>
-void BlockMatrix<B>::column(std::size_t row, std::size_t node, const Vec3& k) {
-  if (Block* to = find(row, node); to && B == 4)
-    for (std::size_t r = 0; r < 3; ++r) to->column[3 % B][r] += k[static_cast<Eigen::Index>(r)];
-}
-
-template <int B>
-void BlockMatrix<B>::row(std::size_t node, std::size_t column, const Vec3& k) {
-  if (Block* to = find(node, column); to && B == 4)
-    for (std::size_t c = 0; c < 3; ++c) to->column[c][3] += k[static_cast<Eigen::Index>(c)];
-}
-
-template <int B>
 void BlockMatrix<B>::set_negative(const BlockMatrix& a, double s, const BlockMatrix* b) {
   negate<B>(a.diagonal_, s, b ? &b->diagonal_ : nullptr, diagonal_);
   negate<B>(a.upper_, s, b ? &b->upper_ : nullptr, upper_);
-  negate<B>(a.lower_, s, b ? &b->lower_ : nullptr, lower_);
+  if (!symmetric_) negate<B>(a.lower_, s, b ? &b->lower_ : nullptr, lower_);
 }
 
 template <int B>
@@ -273,28 +275,15 @@ bool BlockMatrix<B>::factor() {
 
 template <int B>
 void BlockMatrix<B>::solve(double* b) const {
-  if constexpr (B == 4)
-    solve_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
-  else if (symmetric_)
-    solve_symmetric(*pattern_, diagonal_.data(), upper_.data(), b);
-  else
-    solve_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+  if constexpr (B == 4) solve_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+  if constexpr (B == 3) solve_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
 }
 
 template <int B>
 void BlockMatrix<B>::multiply_add(double s, const double* x, double* y) const {
-  for (std::size_t k = 0; k < pattern_->size(); ++k) {
-    Four sum;
-    apply<B>(diagonal_[k], x + 4 * k, sum);
-    at(y + 4 * k) += s * sum;
-    for (std::size_t e = pattern_->begin(k); e < pattern_->begin(k + 1); ++e) {
-      const std::size_t other = 4 * pattern_->later(e);
-      apply<B>(upper_[e], x + other, sum);
-      at(y + 4 * k) += s * sum;
-      apply<B>(lower_[e], x + 4 * k, sum);
-      at(y + other) += s * sum;
-    }
-  }
+  if constexpr (B == 4) multiply_add_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+  if constexpr (B == 3)
+    multiply_add_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
 }
 
 template class BlockMatrix<3>;

@@ -10,20 +10,33 @@
 namespace tendril {
 
 /// A matrix of B x B blocks, one row of blocks a node (three positions; four with the angle), on a pattern.
-/// Symmetric ones keep the upper half alone.
+/// Symmetric ones are given the upper half alone.
 template <int B>
 class BlockMatrix {
  public:
   /// Columns of four numbers, so that a column is a vector register whatever B.
   struct Block {
     std::array<std::array<double, 4>, B> column{};
+
+    void add(const Mat3& k) {
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t r = 0; r < 3; ++r)
+          column[c][r] += k(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+    }
+    /// In the column, or the row, of the angle.
+    void add_column(const Vec3& k) {
+      for (std::size_t r = 0; r < 3; ++r) column[B - 1][r] += k[static_cast<Eigen::Index>(r)];
+    }
+    void add_row(const Vec3& k) {
+      for (std::size_t c = 0; c < 3; ++c) column[c][3] += k[static_cast<Eigen::Index>(c)];
+    }
   };
 
   BlockMatrix(const BlockPattern& pattern, bool symmetric)
       : pattern_(&pattern),
         diagonal_(pattern.size()),
         upper_(pattern.entries()),
-        lower_(symmetric ? 0 : pattern.entries()),
+        lower_(pattern.entries()),
         symmetric_(symmetric) {}
 
   void set_zero();
@@ -34,18 +47,6 @@ class BlockMatrix {
   const Block* find(std::size_t row_node, std::size_t column_node) const {
     return const_cast<BlockMatrix*>(this)->find(row_node, column_node);
   }
-
-  // A sink for stiffness_elements.h.
-  void block(std::size_t row, std::size_t column, const Mat3& k) {
-    Block* to = find(row, column);
-    if (!to) return;
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t r = 0; r < 3; ++r)
-        to->column[c][r] += k(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
-  }
-  void column(std::size_t row, std::size_t node, const Vec3& k);
-  void row(std::size_t node, std::size_t column, const Vec3& k);
-  void angles(std::size_t row, std::size_t column, double k) { entry(row, column, 3, 3) += k; }
 
   /// One number, which must be kept.
   double& entry(std::size_t row, std::size_t column, std::size_t r, std::size_t c) {

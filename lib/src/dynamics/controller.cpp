@@ -14,7 +14,8 @@ namespace tendril {
 namespace {
 
 constexpr double kSafety = 0.93;  // thesis 3.34
-constexpr double kShrink = 0.2;   // bounds of the factor
+constexpr double kStiffSafety = 0.85;
+constexpr double kShrink = 0.2;  // bounds of the factor
 constexpr double kGrow = 5.0;
 constexpr double kLeastError = 1e-2;  // that a prediction counts with, of the tolerance
 constexpr long kGuardInterval = 128;  // accepted steps between estimates of the largest frequency
@@ -31,6 +32,13 @@ Controller::Controller(const System& system, State start, const SimulationOption
     for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) length += (rod.p[i + 1] - rod.p[i]).norm();
     rod_length_.push_back(length);
     longest_ = std::max(longest_, length);
+    // A mass much lighter than the rod's others may ring fast and carry next to nothing: its speed counts by
+    // the root of what it carries, its place in full.
+    double mass = 0.0;
+    for (const double m : rod.mass) mass += m;
+    for (const double m : rod.mass)
+      speed_share_.push_back(
+          mass > 0.0 ? std::min(1.0, std::sqrt(2.0 * m * static_cast<double>(rod.mass.size()) / mass)) : 1.0);
   }
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
@@ -78,7 +86,7 @@ void Controller::measure_scales() {
         ++i;
       }
   }
-  for (Eigen::Index i = 0; i < n; ++i) speed_ = std::max(speed_, state_.y.segment<3>(3 * n + 3 * i).norm());
+  take_speed();
   if (mass > 0.0) speed_ = std::max(speed_, std::sqrt(moved / mass * longest_));
   energy_scale_ = 1e-3 * mass * speed_ * speed_;
 }
@@ -212,16 +220,21 @@ bool Controller::reject(const Aim& aim, double factor, const Evaluation& why) {
 void Controller::accept(const Aim& aim, double error) {
   embedded_->restart();
   const double grow = -1.0 / (embedded_->error_order() + 1);  // -0.2 for Cash-Karp
-  double wish = error > 0.0 ? kSafety * std::pow(error, grow) : kGrow;
+  const double safety = embedded_->stiff() ? kStiffSafety : kSafety;
+  double wish = error > 0.0 ? safety * std::pow(error, grow) : kGrow;
   if (embedded_->stiff()) {
     // Gustafsson's predictive control: how the error changed from step to step tells what it will do next.
-    // Without it every third step or so of a ringing rod is tried in vain.
+    // Without it every third step or so of a ringing rod is tried in vain. After a step tried in vain the two
+    // steps are too unlike to tell anything.
     const double e = std::max(error, kLeastError);
-    if (last_error_ > 0.0)
-      wish = std::min(wish, kSafety * std::pow(last_error_ / (e * e), -grow) * aim.h / last_step_);
+    const bool rejected = std::exchange(rejected_, false);
+    if (rejected)
+      wish = std::min(wish, 1.0);
+    else if (last_error_ > 0.0)
+      wish = std::min(
+          wish, std::max(kShrink, safety * std::pow(last_error_ / (e * e), -grow) * aim.h / last_step_));
     last_error_ = e;
     last_step_ = aim.h;
-    if (std::exchange(rejected_, false)) wish = std::min(wish, 1.0);
   }
   const double factor = std::min(kGrow, wish);
   wished_ = aim.h * wish;
@@ -241,12 +254,18 @@ void Controller::record(const Aim& aim) {
   ++since_guard_;
   report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
   report_.largest_step = std::max(report_.largest_step, aim.h);
+  take_speed();
+  if (report_.accepted % kEnergyInterval == 0) check_energy();
+}
+
+void Controller::take_speed() {
   const auto n = static_cast<Eigen::Index>(system_.node_count());
   double fastest = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i)
-    fastest = std::max(fastest, state_.y.segment<3>(3 * n + 3 * i).squaredNorm());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double share = speed_share_[static_cast<std::size_t>(i)];
+    fastest = std::max(fastest, share * share * state_.y.segment<3>(3 * n + 3 * i).squaredNorm());
+  }
   speed_ = std::max(speed_, std::sqrt(fastest));
-  if (report_.accepted % kEnergyInterval == 0) check_energy();
 }
 
 double Controller::error_norm(const Eigen::VectorXd& error) const {
@@ -258,8 +277,10 @@ double Controller::error_norm(const Eigen::VectorXd& error) const {
     const auto first = 3 * static_cast<Eigen::Index>(system_.rods()[r].first);
     const auto count = 3 * static_cast<Eigen::Index>(system_.rods()[r].count);
     largest = std::max(largest, error.segment(first, count).cwiseAbs().maxCoeff() / rod_length_[r]);
-    largest = std::max(largest, error.segment(3 * n + first, count).cwiseAbs().maxCoeff() / speed);
   }
+  for (Eigen::Index i = 0; i < n; ++i)
+    largest = std::max(largest, speed_share_[static_cast<std::size_t>(i)] *
+                                    error.segment<3>(3 * n + 3 * i).cwiseAbs().maxCoeff() / speed);
   if (m > 0) {
     largest = std::max(largest, error.segment(6 * n, m).cwiseAbs().maxCoeff());
     largest = std::max(largest, error.segment(6 * n + m, m).cwiseAbs().maxCoeff() * longest_ / speed);

@@ -38,6 +38,7 @@ class Controller {
     return other_evaluations_ + (fixed_ ? fixed_->evaluations() : embedded_->evaluations());
   }
   bool out_of_work();
+  void take_speed();
   double error_norm(const Eigen::VectorXd& error) const;
   void make_steppers();
   bool automatic() const;
@@ -67,6 +68,7 @@ class Controller {
   bool ended_ = false;
   std::vector<double> breaks_;
   std::vector<double> rod_length_;
+  std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
   double speed_ = 0.0, longest_ = 0.0, guard_frequency_ = -1.0;
   double energy_scale_ = 0.0;
   double wished_ = 0.0;                        ///< the step the last error would have allowed, uncapped

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lanes.h"
 #include "spring_stiffness.h"
 
 namespace tendril {
@@ -204,9 +205,11 @@ struct ByCosine {
   double slope, curvature;
 };
 ByCosine by_cosine(double stiffness, double sine, double z) {
-  const double angle = std::atan2(sine, z);
+  const bool near = z > 0.0 && sine * sine <= lanes::kWideSquare;
+  const double ratio = near ? lanes::wide_asin_ratio(sine * sine) : std::atan2(sine, z) / sine;
+  const double angle = ratio * sine;
   if (sine > 1e-4) {
-    const double g = stiffness * angle / sine;
+    const double g = stiffness * ratio;
     return {-g, (stiffness - g * z) / (sine * sine)};
   }
   // angle / sine = 1 + angle^2 / 6 + ..., so the curvature tends to K / 3 (1 + 2 angle^2 / 5).

@@ -1,5 +1,6 @@
 #include "elastic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -15,10 +16,31 @@ using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
 
-/// What a loop over springs does beside the gradient.
+/// What a loop over springs does beside the gradient, and whether it takes every angle for a small one.
 struct Wanted {
-  bool viscous, third, energy;
+  bool viscous, third, energy, near;
 };
+
+/// A loop over the nodes or edges [first, end). Loops for small angles need neither divisions nor roots; what
+/// they say is whether all were small.
+using Loop = bool (*)(const Model&, const State&, std::size_t first, std::size_t end, Workspace&);
+struct Loops {
+  Loop near, far;
+};
+
+/// Stretches of this length are done again with the far loop where the near one does not hold.
+constexpr std::size_t kStretch = 32;
+
+bool run(const Loops& loops, const Model& model, const State& reference, const Segment& segment,
+         Workspace& work) {
+  bool good = true;
+  for (std::size_t first = segment.first; first < segment.end; first += kStretch) {
+    const std::size_t end = std::min(first + kStretch, segment.end);
+    if (!loops.near(model, reference, first, end, work))
+      good = loops.far(model, reference, first, end, work) && good;
+  }
+  return good;
+}
 
 /// One edge at one node: the edge's components in the node frame, stiffness and rest, and what comes of it.
 struct End {
@@ -29,14 +51,22 @@ struct NodeMotion {
   V3 l, m, t, t_rate;
   double spin;
 };
+template <bool Near>
+TENDRIL_INLINE lanes::Deviation deviation(double x, double y, double z) {
+  if constexpr (Near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
+  return lanes::deviation(x, std::sqrt(y * y + z * z));
+}
+
+/// Adds what one edge does; false where it is not near and was taken for it.
 template <Wanted W>
-TENDRIL_INLINE void bend(const End& s, const NodeMotion& f, V3& edge, V3& tangent, double& g_spin,
+TENDRIL_INLINE bool bend(const End& s, const NodeMotion& f, V3& edge, V3& tangent, double& g_spin,
                          double& energy, double& heat) {
   const double x = lanes::dot(s.e, f.l);
   const double y = lanes::dot(s.e, f.m);
   const double z = lanes::dot(s.e, f.t);
-  const lanes::Deviation l = lanes::deviation(x, std::sqrt(y * y + z * z));
-  const lanes::Deviation m = lanes::deviation(y, std::sqrt(x * x + z * z));
+  const double across2 = x * x + y * y;
+  const lanes::Deviation l = deviation<W.near>(x, y, z);
+  const lanes::Deviation m = deviation<W.near>(y, x, z);
   double fl = s.k_l * (l.angle - s.rest_l);
   double fm = s.k_m * (m.angle - s.rest_m);
   if constexpr (W.energy) energy += 0.5 * (fl * (l.angle - s.rest_l) + fm * (m.angle - s.rest_m));
@@ -55,8 +85,10 @@ TENDRIL_INLINE void bend(const End& s, const NodeMotion& f, V3& edge, V3& tangen
   const V3 across = gl * f.l + gm * f.m;
   g_spin += gl * y - gm * x;
   double g = 0.0;
-  if constexpr (W.third) {
-    const double sine = std::sqrt(x * x + y * y);
+  if constexpr (W.third && W.near) {
+    g = s.k_t * lanes::asin_ratio(across2);
+  } else if constexpr (W.third) {
+    const double sine = std::sqrt(across2);
     const double strain = lanes::angle(sine, z) - s.rest_t;
     if constexpr (W.energy) energy += 0.5 * s.k_t * strain * strain;
     // d(angle) = -(de.t + e.dt) / sin(angle); at angle 0 the limit for a rest of 0, nothing at the tip of a
@@ -66,10 +98,12 @@ TENDRIL_INLINE void bend(const End& s, const NodeMotion& f, V3& edge, V3& tangen
   }
   edge = across - g * f.t;
   tangent = tangent - z * across - g * s.e;
+  // An edge that is not there is the vector 0.
+  return across2 <= lanes::kNearSquare && z >= 0.0 && s.rest_t == 0.0;
 }
 
 template <Wanted W>
-TENDRIL_INLINE void bend_nodes(const Model& model, const Segment& segment, Workspace& work) {
+TENDRIL_INLINE bool bend_nodes(const Model& model, std::size_t from, std::size_t end, Workspace& work) {
   const Reader e(work.e), e_rate(work.e_rate), m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
   const Writer before(work.g_before), after(work.g_after), to_tangent(work.g_tangent);
   double* __restrict to_spin = work.g_spin.data();
@@ -79,8 +113,9 @@ TENDRIL_INLINE void bend_nodes(const Model& model, const Segment& segment, Works
   const Model::BendingSide::View a = model.bending.side[0].view();
   const Model::BendingSide::View b = model.bending.side[1].view();
   constexpr V3 kNone{0.0, 0.0, 0.0};
+  std::int64_t far = 0;
   TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
+  for (std::size_t i = from; i < end; ++i) {
     const V3 mi = m.at(i);
     const V3 ti = t.at(i);
     const NodeMotion f{lanes::cross(mi, ti), mi, ti, W.viscous ? t_rate.at(i) : kNone,
@@ -100,8 +135,9 @@ TENDRIL_INLINE void bend_nodes(const Model& model, const Segment& segment, Works
     double g_spin = 0.0;
     double energy = 0.0;
     double heat = 0.0;
-    bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
-    bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
+    const bool near_first = bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
+    const bool near_second = bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
+    far |= near_first & near_second ? 0 : 1;
     before.put(i, to_before);
     after.put(i, to_after);
     to_tangent.put(i, tangent);
@@ -109,42 +145,65 @@ TENDRIL_INLINE void bend_nodes(const Model& model, const Segment& segment, Works
     if constexpr (W.energy) to_energy[i] = energy;
     if constexpr (W.viscous) to_heat[i] = heat;
   }
+  return !W.near || far == 0;
 }
 
-TENDRIL_LANES void bend_plainly(const Model& model, const Segment& segment, Workspace& work) {
-  bend_nodes<Wanted{false, false, false}>(model, segment, work);
+TENDRIL_LANES bool bend_near(const Model& model, const State&, std::size_t first, std::size_t end,
+                             Workspace& work) {
+  return bend_nodes<Wanted{false, false, false, true}>(model, first, end, work);
 }
-TENDRIL_LANES void bend_thrice(const Model& model, const Segment& segment, Workspace& work) {
-  bend_nodes<Wanted{false, true, false}>(model, segment, work);
+TENDRIL_LANES bool bend_far(const Model& model, const State&, std::size_t first, std::size_t end,
+                            Workspace& work) {
+  return bend_nodes<Wanted{false, false, false, false}>(model, first, end, work);
 }
-TENDRIL_LANES void bend_viscously(const Model& model, const Segment& segment, Workspace& work) {
-  bend_nodes<Wanted{true, true, false}>(model, segment, work);
+TENDRIL_LANES bool bend_thrice_near(const Model& model, const State&, std::size_t first, std::size_t end,
+                                    Workspace& work) {
+  return bend_nodes<Wanted{false, true, false, true}>(model, first, end, work);
 }
-TENDRIL_LANES void bend_with_energy(const Model& model, const Segment& segment, Workspace& work) {
-  bend_nodes<Wanted{false, true, true}>(model, segment, work);
+TENDRIL_LANES bool bend_thrice_far(const Model& model, const State&, std::size_t first, std::size_t end,
+                                   Workspace& work) {
+  return bend_nodes<Wanted{false, true, false, false}>(model, first, end, work);
 }
+TENDRIL_LANES bool bend_viscously_near(const Model& model, const State&, std::size_t first, std::size_t end,
+                                       Workspace& work) {
+  return bend_nodes<Wanted{true, true, false, true}>(model, first, end, work);
+}
+TENDRIL_LANES bool bend_viscously_far(const Model& model, const State&, std::size_t first, std::size_t end,
+                                      Workspace& work) {
+  return bend_nodes<Wanted{true, true, false, false}>(model, first, end, work);
+}
+TENDRIL_LANES bool bend_with_energy(const Model& model, const State&, std::size_t first, std::size_t end,
+                                    Workspace& work) {
+  return bend_nodes<Wanted{false, true, true, false}>(model, first, end, work);
+}
+constexpr Loops kPlainly{bend_near, bend_far}, kThrice{bend_thrice_near, bend_thrice_far},
+    kViscously{bend_viscously_near, bend_viscously_far};
 
 /// Twist springs of the edges of a segment, into twist_tangent and twist_torque.
 template <Wanted W>
-TENDRIL_INLINE void twist_edges(const Model& model, const double* __restrict reference,
-                                const Segment& segment, Workspace& work) {
+TENDRIL_INLINE bool twist_edges(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                Workspace& work) {
   const Reader m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
   const Writer tangent(work.twist_tangent);
   double* __restrict torques = work.twist_torque.data();
   double* __restrict energy = work.energy.data();
   double* __restrict heat = work.heat.data();
   const double* __restrict spin = work.spin.data();
+  const double* __restrict reference = from.twist.data();
   const double *__restrict stiffness = model.twist.data(), *__restrict rest = model.rest_twist.data(),
                *__restrict viscosity = model.viscosity.data();
+  std::int64_t far = 0;
   TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     const V3 ta = t.at(i);
     const V3 tb = t.at(i + 1);
     const V3 ma = m.at(i);
     const V3 mb = m.at(i + 1);
     const double s = 1.0 / (1.0 + lanes::dot(ta, tb));
     const V3 carried = ma - (lanes::dot(tb, ma) * s) * (ta + tb);
-    const double raw = lanes::angle(lanes::dot(lanes::cross(carried, mb), tb), lanes::dot(carried, mb));
+    const double sine = lanes::dot(lanes::cross(carried, mb), tb);
+    const double cosine = lanes::dot(carried, mb);
+    const double raw = W.near ? sine * lanes::asin_ratio(sine * sine) : lanes::angle(sine, cosine);
     const double tau = reference[i] + lanes::less_turns(raw - reference[i]);
     const double strain = tau - rest[i];
     double torque = stiffness[i] * strain;
@@ -159,21 +218,32 @@ TENDRIL_INLINE void twist_edges(const Model& model, const double* __restrict ref
     }
     torques[i] = torque;
     tangent.put(i, torque * c);
+    far |= (sine * sine <= lanes::kNearSquare && cosine > 0.0) || stiffness[i] == 0.0 ? 0 : 1;
   }
+  return !W.near || far == 0;
 }
 
-TENDRIL_LANES void twist_plainly(const Model& model, const double* reference, const Segment& segment,
-                                 Workspace& work) {
-  twist_edges<Wanted{false, false, false}>(model, reference, segment, work);
+TENDRIL_LANES bool twist_near(const Model& model, const State& reference, std::size_t first, std::size_t end,
+                              Workspace& work) {
+  return twist_edges<Wanted{false, false, false, true}>(model, reference, first, end, work);
 }
-TENDRIL_LANES void twist_viscously(const Model& model, const double* reference, const Segment& segment,
-                                   Workspace& work) {
-  twist_edges<Wanted{true, false, false}>(model, reference, segment, work);
+TENDRIL_LANES bool twist_far(const Model& model, const State& reference, std::size_t first, std::size_t end,
+                             Workspace& work) {
+  return twist_edges<Wanted{false, false, false, false}>(model, reference, first, end, work);
 }
-TENDRIL_LANES void twist_with_energy(const Model& model, const double* reference, const Segment& segment,
-                                     Workspace& work) {
-  twist_edges<Wanted{false, false, true}>(model, reference, segment, work);
+TENDRIL_LANES bool twist_viscously_near(const Model& model, const State& reference, std::size_t first,
+                                        std::size_t end, Workspace& work) {
+  return twist_edges<Wanted{true, false, false, true}>(model, reference, first, end, work);
 }
+TENDRIL_LANES bool twist_viscously_far(const Model& model, const State& reference, std::size_t first,
+                                       std::size_t end, Workspace& work) {
+  return twist_edges<Wanted{true, false, false, false}>(model, reference, first, end, work);
+}
+TENDRIL_LANES bool twist_with_energy(const Model& model, const State& reference, std::size_t first,
+                                     std::size_t end, Workspace& work) {
+  return twist_edges<Wanted{false, false, true, false}>(model, reference, first, end, work);
+}
+constexpr Loops kTwist{twist_near, twist_far}, kTwistViscously{twist_viscously_near, twist_viscously_far};
 
 /// Adds what the twist springs give the nodes.
 TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
@@ -191,38 +261,54 @@ TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
 }
 
 /// Without a twist state bending is isotropic and straight at rest, and a tangent halves the angle phi
-/// between its edges: both its springs together are 1/4 K phi^2, on the edges alone. True when two edges fold
-/// back.
-template <bool Energy>
-TENDRIL_INLINE bool hinge_nodes(const Model& model, const Segment& segment, Workspace& work) {
+/// between its edges: both its springs together are 1/4 K phi^2, on the edges alone. False when two edges
+/// fold back (or are not near and were taken for it).
+template <bool Energy, bool Near>
+TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, Workspace& work) {
   const Reader e(work.e);
   const Writer before(work.g_before), after(work.g_after);
   double* __restrict energy = work.energy.data();
   const double* __restrict stiffness = model.bending.hinge.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     const V3 a = e.at(i - 1);
     const V3 b = e.at(i);
     const V3 c = lanes::cross(a, b);
-    const V3 sum = a + b;
-    const double sine = std::sqrt(lanes::dot(c, c));
-    const double phi = lanes::angle(sine, lanes::dot(a, b));
-    const double ratio = sine > 1e-12 ? phi / (sine > 1e-12 ? sine : 1.0) : 1.0;
+    const double sine2 = lanes::dot(c, c);
+    const double cosine = lanes::dot(a, b);
+    double ratio;
+    bool good;
+    if constexpr (Near) {
+      ratio = lanes::wide_asin_ratio(sine2);
+      good = sine2 <= lanes::kWideSquare && cosine > 0.0;
+    } else {
+      const V3 sum = a + b;
+      const double sine = std::sqrt(sine2);
+      const double phi = lanes::angle(sine, cosine);
+      ratio = sine > 1e-12 ? phi / (sine > 1e-12 ? sine : 1.0) : 1.0;
+      good = lanes::dot(sum, sum) >= kFoldBack * kFoldBack;
+      if constexpr (Energy) energy[i] = 0.25 * stiffness[i] * phi * phi;
+    }
     const double g = -0.5 * stiffness[i] * ratio;
     before.put(i, g * b);
     after.put(i, g * a);
-    if constexpr (Energy) energy[i] = 0.25 * stiffness[i] * phi * phi;
-    bad |= lanes::dot(sum, sum) >= kFoldBack * kFoldBack || stiffness[i] == 0.0 ? 0 : 1;
+    bad |= good || stiffness[i] == 0.0 ? 0 : 1;
   }
-  return bad != 0;
+  return bad == 0;
 }
 
-TENDRIL_LANES bool hinge_plainly(const Model& model, const Segment& segment, Workspace& work) {
-  return hinge_nodes<false>(model, segment, work);
+TENDRIL_LANES bool hinge_near(const Model& model, const State&, std::size_t first, std::size_t end,
+                              Workspace& work) {
+  return hinge_nodes<false, true>(model, first, end, work);
 }
-TENDRIL_LANES bool hinge_with_energy(const Model& model, const Segment& segment, Workspace& work) {
-  return hinge_nodes<true>(model, segment, work);
+TENDRIL_LANES bool hinge_far(const Model& model, const State&, std::size_t first, std::size_t end,
+                             Workspace& work) {
+  return hinge_nodes<false, false>(model, first, end, work);
+}
+TENDRIL_LANES bool hinge_with_energy(const Model& model, const State&, std::size_t first, std::size_t end,
+                                     Workspace& work) {
+  return hinge_nodes<true, false>(model, first, end, work);
 }
 
 /// The edges at a held frame of a rod without twist: 1/2 K angle^2 each.
@@ -245,12 +331,16 @@ double bend_held(const Model& model, std::size_t node, Workspace& work) {
   return energy;
 }
 
-Evaluation hinge(const Model& model, const Segment& segment,
-                 bool (*loop)(const Model&, const Segment&, Workspace&), Workspace& work) {
+bool never(const Model&, const State&, std::size_t, std::size_t, Workspace&) {
+  return false;
+}
+
+Evaluation hinge(const Model& model, const State& reference, const Segment& segment, const Loops& loops,
+                 Workspace& work) {
   // No springs act on these tangents, but torques may.
   for (std::size_t i = segment.first; i < segment.end && model.loaded; ++i)
     work.g_tangent.set(i, Vec3::Zero());
-  if (!loop(model, segment, work)) return {};
+  if (run(loops, model, reference, segment, work)) return {};
   for (std::size_t i = segment.first; i < segment.end; ++i)
     if (model.bending.hinge[i] != 0.0 && !((work.e[i - 1] + work.e[i]).norm() >= kFoldBack))
       return {Evaluation::Outcome::fold_back, i};
@@ -300,13 +390,14 @@ Evaluation elastic(const Model& model, const State& reference, bool viscous, Wor
   if (viscous) heat += resist_stretch(model, work);
   for (const Segment& s : model.segments) {
     if (!s.twist) {
-      if (const Evaluation at = hinge(model, s, hinge_plainly, work); !at.ok()) return at;
+      if (const Evaluation at = hinge(model, reference, s, {hinge_near, hinge_far}, work); !at.ok())
+        return at;
       continue;
     }
     const bool resists = viscous && s.viscous;
-    (resists ? bend_viscously : s.third ? bend_thrice : bend_plainly)(model, s, work);
+    run(resists ? kViscously : s.third ? kThrice : kPlainly, model, reference, s, work);
     if (resists) heat += sum_of(work.heat, s);
-    (resists ? twist_viscously : twist_plainly)(model, reference.twist.data(), s, work);
+    run(resists ? kTwistViscously : kTwist, model, reference, s, work);
     clear_ends(model, work);
     if (resists) heat += sum_of(work.heat, s);
     gather_twist(s, work);
@@ -322,12 +413,12 @@ Evaluation elastic_energy(const Model& model, const State& reference, Workspace&
     energy += 0.5 * work.g_length[i] * (work.length[i] - model.rest_length[i]);
   for (const Segment& s : model.segments) {
     if (s.twist) {
-      bend_with_energy(model, s, work);
+      bend_with_energy(model, reference, s.first, s.end, work);
       energy += sum_of(work.energy, s);
-      twist_with_energy(model, reference.twist.data(), s, work);
+      twist_with_energy(model, reference, s.first, s.end, work);
       clear_ends(model, work);
       gather_twist(s, work);
-    } else if (const Evaluation at = hinge(model, s, hinge_with_energy, work); !at.ok()) {
+    } else if (const Evaluation at = hinge(model, reference, s, {never, hinge_with_energy}, work); !at.ok()) {
       return at;
     }
     energy += sum_of(work.energy, s);

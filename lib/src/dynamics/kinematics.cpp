@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "column_access.h"
 #include "elastic.h"
-#include "lanes.h"
 
 namespace tendril {
 namespace {
@@ -107,49 +107,45 @@ TENDRIL_LANES void bisect_rates(std::size_t first, std::size_t end, Workspace& w
   }
 }
 
+/// Where the reference directors are, what turns them, and where the nodes [first, end) stand in it.
+struct Carried {
+  const double* __restrict tangent;   ///< of the reference, three numbers a node
+  const double* __restrict director;  ///< likewise
+  const double* __restrict theta;     ///< of the nodes from `first` on
+};
+
 /// Directors of nodes with twist: the reference carried to the tangent by the smallest rotation, turned by
-/// theta. True when a tangent turned too far for that.
-TENDRIL_LANES bool direct(std::size_t first, std::size_t end, const double* __restrict from,
-                          const double* __restrict director, const double* __restrict theta,
-                          Workspace& work) {
-  const double *__restrict tx = work.frame.z.x.data(), *__restrict ty = work.frame.z.y.data(),
-               *__restrict tz = work.frame.z.z.data();
-  double *__restrict mx = work.frame.y.x.data(), *__restrict my = work.frame.y.y.data(),
-         *__restrict mz = work.frame.y.z.data();
+/// theta; with rates, also what the carried director turns by itself, ((t_s x t) . t') / (1 + t_s . t). True
+/// when a tangent turned too far for that.
+template <bool Rates>
+TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  const lanes::Reader tangent(work.frame.z), rate(work.t_rate);
+  const lanes::Writer to(work.frame.y);
+  double* __restrict connection = work.connection.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
-    const V3 f{from[3 * i], from[3 * i + 1], from[3 * i + 2]};
-    const V3 d{director[3 * i], director[3 * i + 1], director[3 * i + 2]};
-    const V3 t{tx[i], ty[i], tz[i]};
+    const V3 f{from.tangent[3 * i], from.tangent[3 * i + 1], from.tangent[3 * i + 2]};
+    const V3 d{from.director[3 * i], from.director[3 * i + 1], from.director[3 * i + 2]};
+    const V3 t = tangent.at(i);
     const double c = 1.0 + lanes::dot(f, t);
-    const V3 carried = d - (lanes::dot(t, d) / c) * (f + t);
+    const double s = 1.0 / c;
+    const V3 carried = d - (lanes::dot(t, d) * s) * (f + t);
     const V3 beside = lanes::cross(t, carried);
-    const lanes::SineCosine turn = lanes::sine_cosine(theta[i - first]);
-    mx[i] = turn.cosine * carried.x + turn.sine * beside.x;
-    my[i] = turn.cosine * carried.y + turn.sine * beside.y;
-    mz[i] = turn.cosine * carried.z + turn.sine * beside.z;
+    const lanes::SineCosine turn = lanes::sine_cosine(from.theta[i - first]);
+    to.put(i, turn.cosine * carried + turn.sine * beside);
+    if constexpr (Rates) connection[i] = s * lanes::dot(lanes::cross(f, t), rate.at(i));
     // Within a step no tangent turns further than 126 degrees: a longer way could take the wrong side.
     bad |= c > kTurnedTooFar ? 0 : 1;
   }
   return bad != 0;
 }
 
-/// What the carried director turns by itself: ((t_s x t) . t') / (1 + t_s . t).
-TENDRIL_LANES void connect(std::size_t first, std::size_t end, const double* __restrict from,
-                           Workspace& work) {
-  const double *__restrict tx = work.frame.z.x.data(), *__restrict ty = work.frame.z.y.data(),
-               *__restrict tz = work.frame.z.z.data();
-  const double *__restrict rx = work.t_rate.x.data(), *__restrict ry = work.t_rate.y.data(),
-               *__restrict rz = work.t_rate.z.data();
-  double* __restrict connection = work.connection.data();
-  TENDRIL_LOOP
-  for (std::size_t i = first; i < end; ++i) {
-    const V3 f{from[3 * i], from[3 * i + 1], from[3 * i + 2]};
-    const V3 t{tx[i], ty[i], tz[i]};
-    const V3 rate{rx[i], ry[i], rz[i]};
-    connection[i] = lanes::dot(lanes::cross(f, t), rate) / (1.0 + lanes::dot(f, t));
-  }
+TENDRIL_LANES bool direct_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<false>(first, end, from, work);
+}
+TENDRIL_LANES bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true>(first, end, from, work);
 }
 
 TENDRIL_LANES bool finite(const double* values, std::size_t count) {
@@ -247,9 +243,9 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
     if (what != Motion::places) bisect_rates(s.first, s.end, work);
     if (s.twist) {
       const Eigen::Index k = model.twist_index[s.first];
-      bad |= direct(s.first, s.end, numbers(reference.tangent), numbers(reference.director),
-                    y.data() + model.theta_begin() + k, work);
-      if (what != Motion::places) connect(s.first, s.end, numbers(reference.tangent), work);
+      const Carried from{numbers(reference.tangent), numbers(reference.director),
+                         y.data() + model.theta_begin() + k};
+      bad |= (what == Motion::places ? direct_places : direct_all)(s.first, s.end, from, work);
       const double* spin = y.data() + model.spin_begin() + k;
       std::copy(spin, spin + (s.end - s.first), &work.spin[s.first]);
     }

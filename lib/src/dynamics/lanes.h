@@ -109,6 +109,57 @@ TENDRIL_INLINE Deviation deviation(double x, double cosine) {
   return {std::copysign(a, x), q * r.down};
 }
 
+/// Up to which square of a sine the series below hold: angles to 14.4 degrees.
+constexpr double kNearSquare = 0.0625;
+
+/// asin(s) / s for w = s^2 up to kNearSquare: Chebyshev fit, error 6e-18.
+TENDRIL_INLINE double asin_ratio(double w) {
+  double p = 1.43377619215329082e-02;
+  p = p * w + 1.36697981470607164e-02;
+  p = p * w + 1.73686867756920639e-02;
+  p = p * w + 2.23716872160263473e-02;
+  p = p * w + 3.03819520040953910e-02;
+  p = p * w + 4.46428570835504177e-02;
+  p = p * w + 7.50000000001768835e-02;
+  p = p * w + 1.66666666666666574e-01;
+  return 1.0 + p * w;
+}
+
+/// The same up to kWideSquare, 30 degrees: error 3e-18.
+constexpr double kWideSquare = 0.25;
+TENDRIL_INLINE double wide_asin_ratio(double w) {
+  double p = 3.07187689951910967e-02;
+  p = p * w - 2.40205449185546052e-02;
+  p = p * w + 2.25535636382029822e-02;
+  p = p * w + 3.80853033290725978e-04;
+  p = p * w + 8.79500607648842948e-03;
+  p = p * w + 8.13582992550165689e-03;
+  p = p * w + 9.79275132020199571e-03;
+  p = p * w + 1.15490866129874248e-02;
+  p = p * w + 1.39650099320536066e-02;
+  p = p * w + 1.73527574778197871e-02;
+  p = p * w + 2.23721592796799797e-02;
+  p = p * w + 3.03819444413638076e-02;
+  p = p * w + 4.46428571428834006e-02;
+  p = p * w + 7.49999999999999140e-02;
+  p = p * w + 1.66666666666666657e-01;
+  return 1.0 + p * w;
+}
+
+/// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-18.
+TENDRIL_INLINE double inverse_cosine(double w) {
+  double p = 2.43825199245947422e-01;
+  p = p * w + 1.89181888429336337e-01;
+  p = p * w + 2.09939085475754794e-01;
+  p = p * w + 2.25568508970002579e-01;
+  p = p * w + 2.46094130481056855e-01;
+  p = p * w + 2.73437495349241666e-01;
+  p = p * w + 3.12500000028413771e-01;
+  p = p * w + 3.74999999999933276e-01;
+  p = p * w + 5.00000000000000000e-01;
+  return 1.0 + p * w;
+}
+
 struct SineCosine {
   double sine, cosine;
 };

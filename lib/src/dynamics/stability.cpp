@@ -2,26 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 namespace tendril {
 namespace {
 
-using Complex = std::complex<double>;
-
-double amplification(const Complex& z) {
-  return std::abs(1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120 + z / 800.0))))));
+/// |R(re + i im)|, by Horner's rule on pairs of real numbers.
+double amplification(double re, double im) {
+  constexpr double kCoefficients[] = {1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0};
+  double x = 1.0 / 800;
+  double y = 0.0;
+  for (const double c : kCoefficients) {
+    const double real = x * re - y * im + c;
+    y = x * im + y * re;
+    x = real;
+  }
+  return std::sqrt(x * x + y * y);
 }
 
 /// Growth a step beyond 1 of the oscillator's worse root.
 double growth(double w, double alpha, double beta, double h) {
   const double half = 0.5 * (alpha + beta * w * w);
-  const Complex root = std::sqrt(Complex(half * half - w * w, 0.0));
+  const double discriminant = half * half - w * w;
+  if (discriminant < 0.0) return amplification(-h * half, h * std::sqrt(-discriminant)) - 1.0;
   // The larger root first; the other from the product w^2, without cancellation.
-  const Complex fast = -half - root;
-  const Complex slow = fast == 0.0 ? Complex(0.0) : w * w / fast;
-  return std::max(amplification(h * fast), amplification(h * slow)) - 1.0;
+  const double fast = -half - std::sqrt(discriminant);
+  const double slow = fast == 0.0 ? 0.0 : w * w / fast;
+  return std::max(amplification(h * fast, 0.0), amplification(h * slow, 0.0)) - 1.0;
 }
 
 bool allowed(double frequency, double alpha, double beta, const GuardLimits& limits, double h) {
@@ -34,14 +41,14 @@ bool allowed(double frequency, double alpha, double beta, const GuardLimits& lim
 }  // namespace
 
 double cash_karp_amplification(double re, double im) {
-  return amplification(Complex(re, im));
+  return amplification(re, im);
 }
 
 double guard_step(double frequency, double alpha, double beta, const GuardLimits& limits) {
   if (!(frequency > 0.0)) return std::numeric_limits<double>::infinity();
   // Upwards from a step that is surely allowed, in steps of a tenth; then bisection of the last one.
   const double fastest = frequency + alpha + beta * frequency * frequency;
-  double low = 2e-2 / fastest;
+  double low = 0.1 / fastest;
   while (!allowed(frequency, alpha, beta, limits, low) && low > 1e-9 / fastest) low *= 0.25;
   double high = low;
   while (high * frequency < 10.0 && allowed(frequency, alpha, beta, limits, high)) {

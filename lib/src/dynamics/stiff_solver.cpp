@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "block_route.h"
 #include "differences.h"
 #include "elastic.h"
 #include "spring_stiffness.h"
@@ -14,10 +15,37 @@ namespace {
 
 using Model = System::Model;
 
-std::vector<std::size_t> tips_to_roots(const Model& model) {
+/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
+std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
+  const NodeRange& nodes = model.rods[rod];
   std::vector<std::size_t> order;
-  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r)
-    for (std::size_t i = model.rods[*r].count; i-- > 0;) order.push_back(model.rods[*r].first + i);
+  for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
+    order.push_back(--high);
+    if (low < high && !model.ride_of(rod)) order.push_back(low++);
+  }
+  return order;
+}
+
+bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
+  const Model::Ride* ride = model.ride_of(child);
+  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
+}
+
+/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
+/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
+/// core.
+std::vector<std::size_t> elimination_order(const Model& model) {
+  std::vector<std::size_t> order;
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
+    const std::vector<std::size_t> one = inwards(model, *r);
+    std::vector<std::size_t> two;
+    const bool paired = r + 1 != model.order.rend() && !rides_on(model, *r, *(r + 1));
+    if (paired) two = inwards(model, *++r);
+    for (std::size_t k = 0; k < std::max(one.size(), two.size()); ++k) {
+      if (k < one.size()) order.push_back(one[k]);
+      if (k < two.size()) order.push_back(two[k]);
+    }
+  }
   return order;
 }
 
@@ -79,14 +107,14 @@ class OwnDerivatives : public LoadDerivatives {
  public:
   OwnDerivatives(const Model& model, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
       : model_(model), by_x_(by_x), by_u_(by_u) {}
-  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override {
-    if (model_.feels[i]) by_x_.block(model_.carrier[i], model_.carrier[j], k);
-  }
-  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override {
-    if (model_.feels[i]) by_u_.block(model_.carrier[i], model_.carrier[j], k);
-  }
+  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override { add(by_x_, i, j, k); }
+  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override { add(by_u_, i, j, k); }
 
  private:
+  void add(BlockMatrix<B>& to, std::size_t i, std::size_t j, const Mat3& k) {
+    if (!model_.feels[i]) return;
+    if (auto* block = to.find(model_.carrier[i], model_.carrier[j])) block->add(k);
+  }
   const Model& model_;
   BlockMatrix<B>&by_x_, &by_u_;
 };
@@ -101,25 +129,29 @@ class BlockSolver : public StiffSolver {
         loaded_(model_.loaded && depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_),
         timed_(depends_on_time(model_)),
-        pattern_(tips_to_roots(model_), couplings(model_)),
+        pattern_(elimination_order(model_), couplings(model_)),
         by_x_(pattern_, !rates_matter_),
+        to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
         b_(4 * pattern_.size()),
         x_(4 * pattern_.size()) {
-    if (rates_matter_) by_u_.emplace(pattern_, false);
+    if (rates_matter_) {
+      by_u_.emplace(pattern_, false);
+      to_u_.emplace(*by_u_);
+    }
     if (needs_differences(model_)) differences_.emplace(model_, pattern_);
     lay_out();
   }
 
   long differentiate(const State& state, const Eigen::VectorXd& rate) override {
-    by_x_.set_zero();
-    if (by_u_) by_u_->set_zero();
+    to_x_.restart();
+    if (to_u_) to_u_->restart();
     double energy = 0.0;
     if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
-    visit_stiffness(model_, state, work_, -1.0, by_x_);
+    visit_stiffness(model_, state, work_, -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
-      if (resists(model_)) visit_resistance(model_, work_, *by_u_);
+      if (resists(model_)) visit_resistance(model_, work_, *to_u_);
       // The rates of the frames are needed from here on.
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
       add_turning();
@@ -151,7 +183,9 @@ class BlockSolver : public StiffSolver {
       for (std::size_t c = 0; c < B; ++c)
         diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
     }
-    for (const Connection& c : connections_) add_connection(s, c);
+    if (links_.empty())
+      for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
+    for (const Link& link : links_) add_connection(s, link);
     for (const Held& held : held_) {
       if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
       matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
@@ -160,22 +194,29 @@ class BlockSolver : public StiffSolver {
   }
 
   void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) override {
-    for (std::size_t k = 0; k < b_.size(); ++k) {
-      const double rx = place_x_[k] < 0 ? 0.0 : r[place_x_[k]];
-      const double ru = place_x_[k] < 0 ? 0.0 : r[place_u_[k]];
-      x_[k] = rx;
-      b_[k] = mass_[k] * (ru + s * rx) + damping_[k] * rx;
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto put = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        x_[4 * k + c] = r[x];
+        b_[4 * k + c] = mass_[4 * k + c] * (r[u] + s * r[x]) + damping_[4 * k + c] * r[x];
+      };
+      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
     if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
     matrix_.solve(b_.data());
     result.setZero(r.size());
-    for (std::size_t k = 0; k < b_.size(); ++k) {
-      if (place_x_[k] < 0) continue;
-      result[place_x_[k]] = b_[k];
-      result[place_u_[k]] = s * b_[k] - x_[k];
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto take = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        result[x] = b_[4 * k + c];
+        result[u] = s * b_[4 * k + c] - x_[4 * k + c];
+      };
+      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0)
+        take(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
-    for (const Connection& c : connections_) result[place_u_[4 * pattern_.pivot(c.node) + 3]] -= turned_by(c);
+    for (const Connection& c : connections_)
+      result[model_.spin_begin() + model_.twist_index[c.node]] -= turned_by(c);
   }
 
  private:
@@ -183,30 +224,23 @@ class BlockSolver : public StiffSolver {
     std::size_t node, coordinate;
   };
 
-  /// Places in y of the free coordinates, their masses, and the held ones.
+  /// Places in y, the masses of what is free, and what is held: there every rate is 0, and stays it.
   void lay_out() {
-    place_x_.assign(b_.size(), -1);
-    place_u_.assign(b_.size(), -1);
     mass_.assign(b_.size(), 0.0);
     damping_.assign(b_.size(), 0.0);
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const std::size_t i = pattern_.node(k);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto at = static_cast<Eigen::Index>(3 * i + c);
-        set(k, c, !model_.holds_position(i), at, model_.v_begin() + at, model_.moved_mass[i]);
-      }
-      if (B == 4)
-        set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.theta_begin() + model_.twist_index[i],
-            model_.spin_begin() + model_.twist_index[i], model_.inertia[i]);
+      place_.push_back(static_cast<Eigen::Index>(3 * i));
+      angle_.push_back(B == 4 ? model_.twist_index[i] : -1);
+      for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
+      if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
     }
   }
-  void set(std::size_t k, std::size_t c, bool free, Eigen::Index x, Eigen::Index u, double mass) {
+  void set(std::size_t k, std::size_t c, bool free, double mass) {
     if (!free) {
       held_.push_back({pattern_.node(k), c});
       return;
     }
-    place_x_[4 * k + c] = x;
-    place_u_[4 * k + c] = u;
     mass_[4 * k + c] = mass;
     damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
   }
@@ -228,7 +262,7 @@ class BlockSolver : public StiffSolver {
   bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
 
   /// Blocks by the vectors along the two edges of node i, as blocks by its three positions.
-  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockMatrix<B>& to) const {
+  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockRoute<B>& to) const {
     const auto nodes = around(i);
     const auto add = [&](std::size_t a, std::size_t b, const Mat3& block) {
       if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
@@ -252,38 +286,53 @@ class BlockSolver : public StiffSolver {
       if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
       const TurningTerms terms =
           turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_);
-      add_by_nodes(i, terms.by_x, by_x_);
-      add_by_nodes(i, terms.by_v, *by_u_);
+      add_by_nodes(i, terms.by_x, to_x_);
+      add_by_nodes(i, terms.by_v, *to_u_);
       const auto nodes = around(i);
       const Vec3 spin[3] = {-terms.by_spin[0], terms.by_spin[0] - terms.by_spin[1], terms.by_spin[1]};
       for (std::size_t a = 0; a < 3; ++a)
-        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) by_u_->column(nodes[a], i, spin[a]);
+        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) to_u_->column(nodes[a], i, spin[a]);
       connections_.push_back(
           {i, nodes, {-terms.connection[0], terms.connection[0] - terms.connection[1], terms.connection[1]}});
     }
   }
 
-  /// Adds (F_u - s M) C, as far as the pattern goes.
-  void add_connection(double s, const Connection& c) {
+  /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle
+  /// itself also the inertia.
+  struct Link {
+    const typename BlockMatrix<B>::Block* from;
+    typename BlockMatrix<B>::Block* to;
+    std::size_t connection, a;
+    bool own;
+  };
+
+  /// Where a connection adds, as far as the pattern goes.
+  void link(std::size_t connection) {
+    const Connection& c = connections_[connection];
     const std::size_t own = pattern_.pivot(c.node);
-    const double inertia = mass_[4 * own + 3];
     const auto add = [&](std::size_t row) {
       const auto* from = by_u_->find(row, c.node);
       for (std::size_t a = 0; a < 3; ++a) {
         auto* to = c.from[a] == EdgeStiffness::kNone ? nullptr : matrix_.find(row, c.from[a]);
-        if (!to) continue;
-        for (std::size_t column = 0; column < 3; ++column)
-          for (std::size_t r = 0; r < B; ++r)
-            to->column[column][r] += from->column[B - 1][r] * c.by[a][static_cast<Eigen::Index>(column)];
+        if (to) links_.push_back({from, to, connection, a, row == c.node});
       }
     };
     add(c.node);
     for (std::size_t e = pattern_.begin(own); e < pattern_.begin(own + 1); ++e)
       add(pattern_.node(pattern_.later(e)));
     for (const std::size_t e : pattern_.earlier(own)) add(pattern_.node(pattern_.low(e)));
-    for (std::size_t a = 0; a < 3; ++a)
-      if (c.from[a] != EdgeStiffness::kNone)
-        matrix_.row(c.node, c.from[a], Vec3(-(s * inertia + damping_[4 * own + 3]) * c.by[a]));
+  }
+
+  void add_connection(double s, const Link& link) {
+    const Connection& c = connections_[link.connection];
+    std::array<double, 4> by = link.from->column[B - 1];
+    if (link.own) {
+      const std::size_t angle = 4 * pattern_.pivot(c.node) + 3;
+      by[3] -= s * mass_[angle] + damping_[angle];
+    }
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t r = 0; r < B; ++r)
+        link.to->column[column][r] += by[r] * c.by[link.a][static_cast<Eigen::Index>(column)];
   }
 
   double turned_by(const Connection& c) const {
@@ -299,13 +348,17 @@ class BlockSolver : public StiffSolver {
   System::Workspace& work_;
   bool loaded_, rates_matter_, timed_;
   BlockPattern pattern_;
-  BlockMatrix<B> by_x_, matrix_;
+  BlockMatrix<B> by_x_;
+  BlockRoute<B> to_x_;
+  BlockMatrix<B> matrix_;
   std::optional<BlockMatrix<B>> by_u_;
+  std::optional<BlockRoute<B>> to_u_;
   std::optional<Differences<B>> differences_;
   std::vector<Connection> connections_;
+  std::vector<Link> links_;
   std::vector<Held> held_;
-  std::vector<Eigen::Index> place_x_, place_u_;  ///< per pivot four, -1 for what is held or not there
-  std::vector<double> mass_, damping_, b_, x_;
+  std::vector<Eigen::Index> place_, angle_;     ///< per pivot, of its node in p, and in theta or -1
+  std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
   Eigen::VectorXd gradient_;
 };
 

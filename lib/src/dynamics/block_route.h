@@ -1,0 +1,48 @@
+#pragma once
+
+#include "block_matrix.h"
+
+namespace tendril {
+
+/// A sink for stiffness_elements.h that adds to a matrix. The springs of a model hand over the same blocks in
+/// the same order every time, so where those stand is looked up the first time only. What the matrix does not
+/// keep (the lower half of a symmetric one) is dropped.
+template <int B>
+class BlockRoute {
+ public:
+  /// \param matrix  kept by reference
+  explicit BlockRoute(BlockMatrix<B>& matrix) : matrix_(matrix) {}
+
+  /// Zeroes the matrix and starts again at the first block.
+  void restart() {
+    matrix_.set_zero();
+    next_ = 0;
+  }
+
+  void block(std::size_t row, std::size_t column, const Mat3& k) {
+    if (Block* to = next(row, column)) to->add(k);
+  }
+  void column(std::size_t row, std::size_t node, const Vec3& k) {
+    if (Block* to = next(row, node); to && B == 4) to->add_column(k);
+  }
+  void row(std::size_t node, std::size_t column, const Vec3& k) {
+    if (Block* to = next(node, column); to && B == 4) to->add_row(k);
+  }
+  void angles(std::size_t row, std::size_t column, double k) {
+    if (Block* to = next(row, column); to && B == 4) to->column[B - 1][3] += k;
+  }
+
+ private:
+  using Block = typename BlockMatrix<B>::Block;
+
+  Block* next(std::size_t row, std::size_t column) {
+    if (next_ == route_.size()) route_.push_back(matrix_.find(row, column));
+    return route_[next_++];
+  }
+
+  BlockMatrix<B>& matrix_;
+  std::vector<Block*> route_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace tendril
