@@ -15,7 +15,7 @@ rm -rf "$copy"
 mkdir -p "$copy"
 git ls-files -z | xargs -0 tar c | tar x -C "$copy"
 
-make_tests() { cmake --build "$build" --target dynamics_test statics_test >build/mutants/build.log 2>&1; }
+make_tests() { cmake --build "$build" --target accuracy_test dynamics_test statics_test >build/mutants/build.log 2>&1; }
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_BIND=OFF \
   -DTENDRIL_EXAMPLES=OFF -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
 make_tests
@@ -36,7 +36,7 @@ try() {
   elif timeout 300 "$build/bin/$program" --gtest_filter="$filter" >build/mutants/test.log 2>&1; then
     verdict=LIVES
   else
-    verdict="killed by $(sed -n 's/^\[  FAILED  \] \([A-Za-z/]*\.[A-Za-z]*\).*/\1/p' build/mutants/test.log | head -1)"
+    verdict="killed by $(sed -n 's/^\[  FAILED  \] \([A-Za-z/]*\.[A-Za-z/]*\).*/\1/p' build/mutants/test.log | head -1)"
   fi
   case $verdict in killed*) killed=$((killed + 1)) ;; *) lives=$((lives + 1)) ;; esac
   printf '%3d  %-28s  %-44.44s  %s\n' "$number" "$(basename "$file")" "$to" "$verdict"

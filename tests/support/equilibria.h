@@ -1,11 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/statics.h>
 
 #include <ctime>
 #include <numeric>
+#include <stdexcept>
 
 #include "support/rods.h"
 
@@ -47,11 +47,41 @@ inline Anchor mover(std::size_t node, const Vec3& from, const Vec3& velocity, do
   return anchor;
 }
 
-inline Equilibrium balanced(const System& system, const StaticsOptions& options = {}) {
-  Equilibrium found = find_equilibrium(system, system.rest_state(), options);
-  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
-  EXPECT_LE(found.last_step, options.tolerance);
+/// From a state, by default the rest; throws when it is not found to the tolerance.
+inline Equilibrium balanced_from(const System& system, State start, const StaticsOptions& options = {}) {
+  Equilibrium found = find_equilibrium(system, std::move(start), options);
+  if (found.balance != Balance::converged || !(found.last_step <= options.tolerance))
+    throw std::runtime_error("no equilibrium: " + found.reason);
   return found;
+}
+inline Equilibrium balanced(const System& system, const StaticsOptions& options = {}) {
+  return balanced_from(system, system.rest_state(), options);
+}
+
+/// A rod clamped at its first node.
+inline Equilibrium clamped(Rod rod, std::vector<std::shared_ptr<const Force>> forces,
+                           const StaticsOptions& options = {}) {
+  Scene scene;
+  scene.rods.push_back(std::move(rod));
+  scene.anchors.push_back({0, 0, true, true, {}});
+  scene.forces = std::move(forces);
+  return balanced(System(scene), options);
+}
+
+inline Vec3 tip(const Equilibrium& found) {
+  return at(found.state.y, found.state.tangent.size() - 1);
+}
+
+inline double total_mass(const Rod& rod) {
+  return std::accumulate(rod.mass.begin(), rod.mass.end(), 0.0);
+}
+
+/// Positions of the masses in the plane x z.
+inline std::vector<std::pair<double, double>> side_view(const State& state) {
+  std::vector<std::pair<double, double>> out;
+  for (std::size_t i = 0; i < state.tangent.size(); ++i)
+    out.emplace_back(at(state.y, i).x(), at(state.y, i).z());
+  return out;
 }
 
 inline double order(double coarse, double fine) {

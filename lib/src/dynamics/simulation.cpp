@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "controller.h"
+#include "words.h"
 
 namespace tendril {
 namespace {
@@ -40,6 +41,23 @@ void check(const SimulationOptions& options) {
     throw InvalidInput("work_limit", std::to_string(options.work_limit), "at least 1");
   if (options.degree < 1 || options.degree > kMaxDegree)
     throw InvalidInput("degree", std::to_string(options.degree), "1 to " + std::to_string(kMaxDegree));
+}
+
+/// A run begins where the equations can be evaluated: there are frames then, and curves through the masses.
+void check_start(const System& system, const State& start) {
+  const State rest = system.rest_state();
+  if (start.y.size() != rest.y.size() || start.tangent.size() != rest.tangent.size() ||
+      start.director.size() != rest.director.size() || start.twist.size() != rest.twist.size())
+    throw InvalidInput("start", "a state of other sizes", "one made by System::rest_state");
+  Eigen::VectorXd rate;
+  const auto work = system.make_workspace();
+  const Evaluation at = system.derivative(start, start.time, start.y, rate, *work);
+  if (at.ok() && start.y.allFinite()) return;
+  std::size_t rod = 0;
+  while (rod + 1 < system.rods().size() && at.node >= system.rods()[rod + 1].first) ++rod;
+  throw InvalidInput(sentence("start: rod ", rod, " node ", at.node - system.rods()[rod].first),
+                     describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
+                     "a state at which the equations can be evaluated");
 }
 
 }  // namespace
@@ -154,6 +172,7 @@ struct Simulation::Implementation {
 
 Simulation::Simulation(const System& system, State start, const SimulationOptions& options) {
   check(options);
+  check_start(system, start);
   self_ = std::make_unique<Implementation>(system, std::move(start), options);
 }
 Simulation::~Simulation() = default;

@@ -79,6 +79,7 @@ class Simulation {
   enum class When { accepted_step, output };
 
   /// \param system  kept by reference
+  /// Throws InvalidInput for options out of range, and for a start whose equations cannot be evaluated.
   Simulation(const System& system, State start, const SimulationOptions& options = {});
   ~Simulation();
 

@@ -1,0 +1,222 @@
+#include <tendril/dynamics/forces.h>
+
+#include "support/soundness.h"
+
+// Scenes at the edge of what can be asked. Each ends right to its tolerance, by a reference that two
+// tolerances certify or by a closed form, or is refused by name.
+namespace tendril {
+namespace {
+
+using test::Trial;
+
+#ifdef TENDRIL_LONG
+constexpr bool kLong = true;
+#else
+constexpr bool kLong = false;
+#endif
+
+std::shared_ptr<const Force> gravity() {
+  return std::make_shared<Gravity>(Vec3(0, 0, -9.81));
+}
+
+/// The clamped rod of radius 5 mm and length 1 m, let go under gravity.
+Scene swing(int nodes, double young) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(nodes - 1, young, 5e-3));
+  scene.rods[0].mass_damping = 0.5;
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces.push_back(gravity());
+  return scene;
+}
+
+Scene changed(Scene scene, const std::function<void(Rod&)>& change) {
+  change(scene.rods[0]);
+  return scene;
+}
+
+/// Springs of every second edge, and of the node before it, times a factor.
+void stiffen_every_second(Rod& rod, double factor) {
+  for (std::size_t i = 1; i < rod.stretch.size(); i += 2) {
+    rod.stretch[i] *= factor;
+    rod.twist[i] *= factor;
+    rod.bend_l[i] *= factor;
+    rod.bend_m[i] *= factor;
+  }
+}
+
+void lighten_every_second(Rod& rod, double factor) {
+  for (std::size_t i = 1; i < rod.mass.size(); i += 2) rod.mass[i] /= factor;
+}
+
+/// Between the nodes `node` and `node + 1` an edge that is far shorter than the others.
+Scene with_short_edge(double length) {
+  std::vector<Vec3> p = test::straight(15, 1.0);
+  p.insert(p.begin() + 8, p[7] + length * Vec3::UnitX());
+  Scene scene = swing(4, 1e6);
+  const Rod rod =
+      make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), {1e6, 3e5, 1000}, circular_section(5e-3));
+  scene.rods[0] = rod;
+  return scene;
+}
+
+/// Spacings in ratio up to 1000, growing along the rod or in turn.
+Scene unevenly_spaced(bool in_turn) {
+  std::vector<Vec3> p{Vec3::Zero()};
+  const int edges = 24;
+  for (int i = 0; i < edges; ++i) {
+    const double share = in_turn ? (i % 2) : static_cast<double>(i) / (edges - 1);
+    p.push_back(p.back() + std::pow(1000.0, share) * Vec3::UnitX());
+  }
+  const double length = p.back().x();
+  for (Vec3& at : p) at /= length;
+  Scene scene = swing(4, 1e6);
+  scene.rods[0] =
+      make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), {1e6, 3e5, 1000}, circular_section(5e-3));
+  return scene;
+}
+
+/// A stem and a branch at its middle that is stiffer and heavier by these factors.
+Scene with_branch(double stiffer, double heavier) {
+  Scene scene = swing(9, 1e6);
+  const Vec3 foot = scene.rods[0].p[4];
+  std::vector<Vec3> p;
+  for (int i = 0; i < 6; ++i) p.push_back(foot + Vec3(0.02, 0.08, 0.01) * i);
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1),
+                                {1e6 * stiffer, 3e5 * stiffer, 1000 * heavier}, circular_section(5e-3)));
+  scene.joints.push_back({.parent = 0, .node = 4, .child = 1});
+  return scene;
+}
+
+/// The clamp is shaken and turned by hand.
+Scene shaken(Scene scene) {
+  const Frame rest = node_frames(scene.rods[0].p, scene.rods[0].q).frame[0];
+  scene.anchors[0].motion = [rest](double t) {
+    const double angle = 0.8 * std::sin(9 * t);
+    AnchorPose pose;
+    pose.position = Vec3(0, 0.1 * std::sin(12 * t), 0);
+    pose.velocity = Vec3(0, 1.2 * std::cos(12 * t), 0);
+    const auto turned = [&](const Vec3& v) { return rotate_about(Vec3::UnitY(), angle, v); };
+    pose.frame = {turned(rest.x), turned(rest.y), turned(rest.z)};
+    pose.angular_velocity = 7.2 * std::cos(9 * t) * Vec3::UnitY();
+    return pose;
+  };
+  return scene;
+}
+
+Scene in_wind(double young) {
+  Scene scene = swing(16, young);
+  WindOptions wind;
+  wind.mean = Vec3(0, 30, 0);
+  wind.gust = 0.3;
+  wind.switched = Signal::table({{0.1, 0.0}, {0.1, 1.0}, {0.2, 1.0}, {0.2, 0.0}});
+  scene.forces.push_back(std::make_shared<Wind>(wind));
+  return scene;
+}
+
+/// A wall that pushes back only behind it: its force has a kink, and with `jump` a jump, that it does not
+/// announce.
+struct Wall : Force {
+  explicit Wall(double j) : jump(j) {}
+  void add(const StateView& state, const Loads& loads) const override {
+    for (std::size_t i = 0; i < state.p.size(); ++i)
+      if (state.p[i].z() < -0.05) loads.force[i].z() += jump - 50.0 * (state.p[i].z() + 0.05);
+  }
+  double jump;
+};
+Scene on_wall(double young, double jump) {
+  Scene scene = swing(12, young);
+  scene.forces.push_back(std::make_shared<Wall>(jump));
+  return scene;
+}
+
+std::string with(const char* what, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s %.0e", what, value);
+  return text;
+}
+
+void add_stiffnesses(std::vector<Trial>& to, std::initializer_list<int> all_nodes, double until) {
+  for (const int nodes : all_nodes)
+    for (const double young : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12}) {
+      Trial trial{with((std::to_string(nodes) + " nodes, E").c_str(), young),
+                  [=] { return swing(nodes, young); }};
+      trial.until = until;
+      to.push_back(trial);
+    }
+}
+
+void add_rods(std::vector<Trial>& to) {
+  const auto rod = [&](const std::string& name, double young, const std::function<void(Rod&)>& change) {
+    to.push_back({name, [=] { return changed(swing(16, young), change); }});
+  };
+  for (const double ratio : {1e8, 1e10})
+    rod(with("edges apart in stiffness", ratio), 1e4, [=](Rod& r) { stiffen_every_second(r, ratio); });
+  for (const double ratio : {1e6, 1e8}) {
+    rod(with("masses apart", ratio), 1e6, [=](Rod& r) { lighten_every_second(r, ratio); });
+    rod(with("tip heavier by", ratio), 1e10, [=](Rod& r) { r.mass.back() *= ratio; });
+  }
+  for (const double factor : {1e3, 1e6, 1e9})
+    rod(with("inextensible: E A times", factor), 1e6, [=](Rod& r) {
+      for (double& k : r.stretch) k *= factor;
+    });
+  for (const double beta : {1e-6, 1e-4, 1e-2, 1.0})
+    rod(with("viscosity", beta), 1e6, [=](Rod& r) { r.viscosity = beta; });
+  rod("edges and masses apart", 1e6, [](Rod& r) {
+    stiffen_every_second(r, 1e10);
+    lighten_every_second(r, 1e8);
+  });
+}
+
+std::vector<Trial> long_trials() {
+  std::vector<Trial> all;
+  add_stiffnesses(all, {128, 512, 4096}, 0.05);
+  for (const double beta : {0.0, 1e-6, 1e-3, 1.0})
+    all.push_back({with("1024 nodes, viscosity", beta),
+                   [=] { return changed(swing(1024, 1e6), [=](Rod& r) { r.viscosity = beta; }); }, 0.05});
+  return all;
+}
+
+std::vector<Trial> short_trials() {
+  std::vector<Trial> all;
+  add_stiffnesses(all, {32}, 0.3);
+  add_rods(all);
+  for (const double young : {1e6, 1e8, 1e10, 1e12}) {
+    Trial frame{with("one frame of 1/24 s, E", young), [=] { return swing(32, young); }};
+    frame.until = 1.0 / 24;
+    all.push_back(frame);
+  }
+  // Whose direction the rounding of positions leaves known to 1e-7.
+  all.push_back({"edge of 1e-9 of the length", [] { return with_short_edge(1e-9); }, 0.3, false});
+  all.push_back({"edge of 1e-5 of the length", [] { return with_short_edge(1e-5); }});
+  all.push_back({"spacing 1 to 1000, growing", [] { return unevenly_spaced(false); }});
+  all.push_back({"spacing 1 to 1000, in turn", [] { return unevenly_spaced(true); }});
+  all.push_back({"branch stiffer by 1e6", [] { return with_branch(1e6, 1.0); }});
+  all.push_back({"branch stiffer and heavier", [] { return with_branch(1e6, 1e3); }});
+  all.push_back({"tree shaken by hand", [] { return shaken(with_branch(1e6, 1e3)); }});
+  all.push_back({"stiff rod shaken by hand", [] { return shaken(swing(16, 1e10)); }});
+  for (const double young : {1e5, 1e9})
+    all.push_back({with("wind on and off, E", young), [=] { return in_wind(young); }});
+  for (const double young : {1e5, 1e9}) {
+    all.push_back({with("wall with a kink, E", young), [=] { return on_wall(young, 0.0); }});
+    all.push_back({with("wall with a jump, E", young), [=] { return on_wall(young, 0.5); }});
+  }
+  return all;
+}
+
+class Extreme : public testing::TestWithParam<Trial> {};
+
+TEST_P(Extreme, EndsRightOrIsRefused) {
+  test::expect_right_or_refused(GetParam());
+}
+
+std::string letters(const testing::TestParamInfo<Trial>& one) {
+  std::string out;
+  for (const char c : one.param.name)
+    if (std::isalnum(static_cast<unsigned char>(c))) out += c;
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Extreme, testing::ValuesIn(kLong ? long_trials() : short_trials()), letters);
+
+}  // namespace
+}  // namespace tendril
