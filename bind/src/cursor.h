@@ -58,6 +58,8 @@ class TextCursor : public ItemName {
   std::string_view rest_of_line();
 
   std::size_t offset() const { return next_; }
+  /// Where the next token stands, once done() has looked for it.
+  std::string next_place() const { return name_ + ":" + std::to_string(line_); }
   std::size_t remaining() const { return bytes_.size() - next_; }
   /// The last value taken, as it stands in the file.
   std::string found() const { return quoted(last_); }

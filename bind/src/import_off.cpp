@@ -254,11 +254,25 @@ void read_body(Cursor& in, const OffHeader& header, PolygonMesh& mesh, ColorList
   in.at("after the last face");
 }
 
-PolygonMesh read_text(TextCursor& in, const OffHeader& header) {
+/// Faces beyond those the header counts.
+void read_surplus(TextCursor& in, const OffHeader& header, PolygonMesh& mesh, ColorList& colors,
+                  std::vector<std::string>& notes) {
+  std::string place;
+  for (; !in.done(); read_face(in, header.vertices, mesh, colors)) {
+    in.at("face", mesh.face_count());
+    if (place.empty()) place = in.next_place();
+  }
+  if (place.empty()) return;
+  notes.push_back(place + ": " + std::to_string(mesh.face_count() - header.faces) +
+                  " more faces than the header's " + std::to_string(header.faces) + ", kept");
+}
+
+PolygonMesh read_text(TextCursor& in, const OffHeader& header, std::vector<std::string>* notes) {
   PolygonMesh mesh;
   reserve(mesh, header, in.remaining(), 6, 8, 2);
   ColorList point_colors, face_colors;
   read_body(in, header, mesh, point_colors, face_colors);
+  if (notes) read_surplus(in, header, mesh, face_colors, *notes);
   if (!in.done()) {
     in.token("");
     in.fail(in.found() + " is left over", "the end of the file");
@@ -287,10 +301,14 @@ PolygonMesh read_binary(ByteCursor in, OffHeader header) {
 }  // namespace
 
 PolygonMesh parse_off(std::string_view bytes, const std::string& name) {
+  return read_off(bytes, name, nullptr);
+}
+
+PolygonMesh read_off(std::string_view bytes, const std::string& name, std::vector<std::string>* notes) {
   TextCursor in(bytes, name, true);
   const OffHeader header = read_header(in);
   if (header.binary) return read_binary(ByteCursor(bytes, in.offset(), name, true), header);
-  return read_text(in, header);
+  return read_text(in, header, notes);
 }
 
 }  // namespace tendril::bind

@@ -1,11 +1,11 @@
 #include "commands.h"
 #include "draw/drawing.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/axis/find_axis.h>
 #include <tendril/base/error.h>
 #include <tendril/base/file.h>
-#include <tendril/bind/import.h>
 
 #include <chrono>
 #include <cstdio>
@@ -115,7 +115,7 @@ void draw_tree(const Options& options, const bind::PolygonMesh& mesh, const axis
 }
 
 int find(const Options& options) {
-  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
   axis::AxisTree tree;
   try {

@@ -1,10 +1,10 @@
 #include "commands.h"
 #include "draw/drawing.h"
 #include "read/curve_reader.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
-#include <tendril/bind/import.h>
 #include <tendril/bind/judge.h>
 
 #include <cmath>
@@ -121,7 +121,7 @@ void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Bind
 
 int judge(const Options& options) {
   const int threads = thread_count(options.threads);
-  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes = read_axes(options.axes, options.poses);
   bind::BindOptions how{bind::BindMode::continuous, options.band, threads};
   if (options.nearest) how.mode = bind::BindMode::nearest;
@@ -156,7 +156,8 @@ Command bind_command(CLI::App& parent) {
       parent.add_subcommand("bind", "Binds a mesh to axes and judges by refinement whether a pose tears it");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axes, "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
+  app->add_option("--axis", options->axes,
+                  "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
       ->required();
   app->add_option("--pose", options->poses, "curve file (JSON) of the posed axis, one for each --axis");
   app->add_option("--band", options->band, "width of transitions, in distances to the axis")

@@ -1,7 +1,7 @@
 #include "commands.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
-#include <tendril/bind/import.h>
 #include <tendril/bind/inspect.h>
 
 #include <iostream>
@@ -68,7 +68,7 @@ void print_text(const std::string& path, const bind::MeshReport& r) {
 }
 
 int check(const Options& options) {
-  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const bind::MeshReport report = bind::inspect(mesh);
   if (options.json) {
     print(to_json(mesh, report));

@@ -1,11 +1,11 @@
 #include "commands.h"
 #include "read/curve_reader.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
 #include <tendril/bind/binding.h>
 #include <tendril/bind/export.h>
-#include <tendril/bind/import.h>
 #include <tendril/curve/equal_length.h>
 
 #include <iostream>
@@ -45,7 +45,7 @@ int deform(const Options& options) {
   if (options.equal_length && options.continuous)
     throw InvalidInput("--equal-length", "with --continuous", "one of the two");
   const int threads = thread_count(options.threads);
-  bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes = axes_of(options);
   const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
   const bind::Binding binding(axes.rest, mesh, {.mode = mode, .threads = threads});
@@ -81,7 +81,8 @@ Command deform_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")->required();
+  app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")
+      ->required();
   app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
   app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");

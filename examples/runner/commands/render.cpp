@@ -1,10 +1,10 @@
 #include "commands.h"
 #include "draw/drawing.h"
 #include "read/curve_reader.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
-#include <tendril/bind/import.h>
 
 #include <charconv>
 #include <cmath>
@@ -70,7 +70,7 @@ ViewOptions read_view(const Options& options) {
 int render(const Options& options) {
   const ViewOptions view = read_view(options);
   const int threads = thread_count(options.threads);
-  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = read_mesh(options.mesh);
   CameraFit fit(view);
   fit.include(mesh.points);
   Drawing drawing{&mesh, {}, {}};

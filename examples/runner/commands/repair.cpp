@@ -1,8 +1,8 @@
 #include "commands.h"
+#include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/bind/export.h>
-#include <tendril/bind/import.h>
 #include <tendril/bind/repair.h>
 
 #include <iostream>
@@ -50,7 +50,7 @@ OrderedJson to_json(const bind::Repaired& repaired) {
 }
 
 int run(const Options& options) {
-  const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const bind::Repaired repaired = bind::repair(mesh, {.merge_points = !options.keep_points,
                                                       .drop_degenerate = !options.keep_degenerate,
                                                       .drop_duplicates = !options.keep_duplicates,

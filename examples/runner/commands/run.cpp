@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "read/mesh_reader.h"
 #include "read/scene_binding.h"
 #include "write/interrupt.h"
 #include "write/json_output.h"
@@ -8,7 +9,6 @@
 #include "write/summary.h"
 
 #include <tendril/base/file.h>
-#include <tendril/bind/import.h>
 
 #include <filesystem>
 #include <iostream>
@@ -27,7 +27,7 @@ SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phas
   const Phases::Timer timer(phases, Phases::import);
   SceneFile file = read_scene(options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
-  if (!file.mesh.empty()) mesh = bind::read_mesh(file.mesh);
+  if (!file.mesh.empty()) mesh = read_mesh(file.mesh);
   if (!file.mesh.empty() && mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
   return file;
 }

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Surface meshes from OFF and PLY.
 ///
@@ -15,6 +16,9 @@
 /// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
 /// that contradicts itself. A face that names a vertex twice is accepted.
 ///
+/// With `notes`, faces that follow the last one that a text OFF's header counts are kept, and the notes say so with
+/// place and number; without, nobody would be told, and they are refused as left over.
+///
 /// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
 /// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
 /// order.
@@ -22,7 +26,7 @@ namespace tendril::bind {
 
 /// Reads a file. The format is told by its first bytes, not by its name.
 /// Throws FileError when it cannot be read, InvalidInput when it is neither OFF nor PLY or malformed.
-PolygonMesh read_mesh(const std::string& path);
+PolygonMesh read_mesh(const std::string& path, std::vector<std::string>* notes = nullptr);
 
 /// OFF of Geomview's manual, section "OFF files": text or binary (big-endian), the keyword required, '#'
 /// comments.
