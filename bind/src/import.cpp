@@ -2,6 +2,7 @@
 #include <tendril/base/file.h>
 #include <tendril/bind/import.h>
 
+#include "cursor.h"
 #include "import_values.h"
 
 namespace tendril::bind {
