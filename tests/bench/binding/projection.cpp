@@ -144,7 +144,7 @@ OrderedJson projection_section(Settings& settings) {
       continue;
     }
     const double mean = std::pow(product[k], 1.0 / cases);
-    std::printf("%s: %.1f times ours in the geometric mean (goal %.0f)\n", names[k].name.c_str(), mean,
+    std::printf("%s: %.1f times ours in the geometric mean (asked: %.0f)\n", names[k].name.c_str(), mean,
                 names[k].goal);
     out["mean"][names[k].name] = mean;
   }
