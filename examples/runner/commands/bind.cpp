@@ -156,7 +156,8 @@ Command bind_command(CLI::App& parent) {
       parent.add_subcommand("bind", "Binds a mesh to axes and judges by refinement whether a pose tears it");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axes, "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
+  app->add_option("--axis", options->axes,
+                  "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
       ->required();
   app->add_option("--pose", options->poses, "curve file (JSON) of the posed axis, one for each --axis");
   app->add_option("--band", options->band, "width of transitions, in distances to the axis")

@@ -21,7 +21,7 @@ struct Options {
 
 /// The curve-pairs at rest and posed, one for one. At equal length their knots need not agree.
 Axes axes_of(const Options& options) {
-  if (!options.equal_length) return read_axes({options.axis}, {options.pose});
+  if (!options.equal_length) return read_axes({options.axis}, {options.pose}, "the same, or --equal-length");
   Axes axes;
   const std::vector<CurveFile> rest = read_curves(options.axis);
   for (const CurveFile& curve : rest) axes.rest.push_back(curve.pair);
@@ -81,7 +81,8 @@ Command deform_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")->required();
+  app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")
+      ->required();
   app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
   app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
