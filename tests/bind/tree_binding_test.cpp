@@ -167,7 +167,8 @@ TEST_F(Hanging, TheFlankStaysAndTheArmpitStretchesWithoutATear) {
     binding.update(posed, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const Vec3& p = body.points[i];
-      if (std::hypot(p.x(), p.z()) < 0.41 && p.y() < 0.3) EXPECT_LT((out[i] - p).norm(), 1e-3) << p.transpose();
+      if (std::hypot(p.x(), p.z()) < 0.41 && p.y() < 0.3)
+        EXPECT_LT((out[i] - p).norm(), 1e-3) << p.transpose();
       if (p.x() > 0.53 && p.y() < 0.3) EXPECT_GT((out[i] - p).norm(), 0.2) << p.transpose();
     }
     double stretch = 0.0;
