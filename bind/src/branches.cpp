@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "islands.h"
+#include "facing.h"
 #include "parallel.h"
 #include "soft_axis.h"
 
@@ -17,12 +16,15 @@ constexpr double kReach = 2.0;
 using CandidateLists = std::vector<std::vector<Candidate>>;
 
 /// The nearest projection on any of the curves; `hints` are those of the point before.
-Candidate nearest_of(std::span<const CurveProjector> projectors, const Vec3& p, std::vector<double>& hints) {
+Candidate nearest_of(std::span<const CurveProjector> projectors, const Facing& facing, std::size_t point,
+                     const Vec3& p, std::vector<double>& hints) {
   Candidate best{0, {}};
   for (std::uint32_t k = 0; k < projectors.size(); ++k) {
     const Projection at = projectors[k].nearest(p, hints[k]);
     hints[k] = at.t;
-    if (k == 0 || at.distance < best.at.distance) best = {k, {at, std::max(0.0, at.lambda), false, 1}};
+    const double factor = facing.factor(point, k);
+    if (k == 0 || factor * at.distance < best.distance())
+      best = {k, {at, std::max(0.0, at.lambda), false, 1}, factor};
   }
   if (best.at.kind != ProjectionKind::interior)
     best.at = projectors[best.pair].all(p, 0.0, hints[best.pair]).front();
@@ -30,18 +32,20 @@ Candidate nearest_of(std::span<const CurveProjector> projectors, const Vec3& p, 
 }
 
 /// All projections within the band, the nearest first.
-std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Vec3& p,
-                                  const Candidate& nearest, double band) {
-  const double reach = (1.0 + kReach * band) * nearest.at.distance;
+std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Facing& facing,
+                                  std::size_t point, const Vec3& p, const Candidate& nearest, double band) {
+  const double reach = (1.0 + kReach * band) * nearest.distance();
   std::vector<Candidate> out;
   for (std::uint32_t k = 0; k < projectors.size(); ++k) {
-    const double distance = k == nearest.pair ? nearest.at.distance : projectors[k].nearest(p).distance;
+    const double factor = facing.factor(point, k);
+    const double distance =
+        factor * (k == nearest.pair ? nearest.at.distance : projectors[k].nearest(p).distance);
     if (distance > reach) continue;
     const double within = distance > 0.0 ? std::max(0.0, reach / distance - 1.0) : 0.0;
-    for (const LocalMinimum& m : projectors[k].all(p, within, nearest.at.t)) out.push_back({k, m});
+    for (const LocalMinimum& m : projectors[k].all(p, within, nearest.at.t)) out.push_back({k, m, factor});
   }
   std::stable_sort(out.begin(), out.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.at.distance < b.at.distance; });
+                   [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
   return out;
 }
 
@@ -110,37 +114,6 @@ class Gate {
   std::vector<Node> waiting_;
 };
 
-/// The projections of a point of an island: on the curve-pairs of the points around it alone.
-std::vector<Candidate> bridged(std::span<const CurveProjector> projectors, const Vec3& p,
-                               std::span<const std::uint32_t> pairs, double band) {
-  Candidate nearest{0, {}};
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const LocalMinimum at = projectors[pairs[k]].all(p, 0.0).front();
-    if (k == 0 || at.distance < nearest.at.distance) nearest = {pairs[k], at};
-  }
-  std::vector<Candidate> out{nearest};
-  for (const Candidate& c : candidates(projectors, p, nearest, band)) {
-    const bool other = c.pair != nearest.pair || c.at.t != nearest.at.t;
-    if (other && std::binary_search(pairs.begin(), pairs.end(), c.pair)) out.push_back(c);
-  }
-  return out;
-}
-
-/// Gives the points of islands the projections of their surroundings. \return  those points, ascending
-std::vector<std::uint32_t> bridge_islands(std::span<const CurveProjector> projectors, const PolygonMesh& mesh,
-                                          const Neighbours& neighbours, double band, CandidateLists& lists) {
-  std::vector<Candidate> nearest;
-  for (const auto& list : lists) nearest.push_back(list.front());
-  std::vector<std::uint32_t> points;
-  for (const Island& island : find_islands(mesh, neighbours, nearest))
-    for (const std::uint32_t i : island.points) {
-      lists[i] = bridged(projectors, mesh.points[i], island.pairs, band);
-      points.push_back(i);
-    }
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
 }  // namespace
 
 Neighbours::Neighbours(const PolygonMesh& mesh) {
@@ -167,32 +140,34 @@ Branches find_branches(std::span<const CurveProjector> projectors, const Polygon
                        int threads) {
   const std::size_t count = mesh.points.size();
   const SoftAxis axis(projectors);
+  const Neighbours neighbours(mesh);
+  const Facing facing(projectors, mesh, neighbours, threads);
+  const auto factors_at = [&](std::size_t i) {
+    std::vector<double> out;
+    for (std::uint32_t k = 0; k < projectors.size(); ++k) out.push_back(facing.factor(i, k));
+    return out;
+  };
   CandidateLists lists(count);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<double> hints;
     for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
     for (std::size_t i = begin; i < end; ++i) {
-      const Candidate nearest = nearest_of(projectors, mesh.points[i], hints);
+      const Candidate nearest = nearest_of(projectors, facing, i, mesh.points[i], hints);
       lists[i] = {nearest};
-      if (axis.may_be_ambiguous(mesh.points[i], nearest, band))
-        lists[i] = candidates(projectors, mesh.points[i], nearest, band);
+      if (axis.may_be_ambiguous(mesh.points[i], nearest, factors_at(i), band))
+        lists[i] = candidates(projectors, facing, i, mesh.points[i], nearest, band);
     }
   });
   Branches branches;
-  const bool several = projectors.size() > 1;
-  if (several || std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; })) {
-    const Neighbours neighbours(mesh);
-    std::vector<std::uint32_t> refused;
-    if (several) refused = bridge_islands(projectors, mesh, neighbours, band, lists);
-    const std::vector<std::uint32_t> gated = Gate(projectors, mesh, neighbours, lists).run();
-    std::set_union(refused.begin(), refused.end(), gated.begin(), gated.end(),
-                   std::back_inserter(branches.gated));
-  }
+  if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
+    branches.gated = Gate(projectors, mesh, neighbours, lists).run();
   branches.influences.resize(count);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const double share = axis.ambiguity(mesh.points[i], lists[i], band);
-      if (share > 0.0) branches.influences[i] = axis.influences(mesh.points[i], lists[i], kReach * band);
+      const std::vector<double> factors = factors_at(i);
+      const double share = axis.ambiguity(mesh.points[i], lists[i], factors, band);
+      if (share > 0.0)
+        branches.influences[i] = axis.influences(mesh.points[i], lists[i], factors, kReach * band);
       for (Influence& one : branches.influences[i]) one.weight *= share;
     }
   });

@@ -11,7 +11,10 @@ namespace tendril::bind {
 struct Candidate {
   std::uint32_t pair;
   LocalMinimum at;
-  bool open = true;  ///< not gated
+  double factor = 1.0;  ///< on the distance, see Facing
+  bool open = true;     ///< not gated
+
+  double distance() const { return factor * at.distance; }
 };
 
 /// A place of an axis that a point is bound to.

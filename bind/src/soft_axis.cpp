@@ -74,7 +74,7 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
 /// Samples at multiples of a power of two, so that they do not move with p, marching both ways from each
 /// minimum to where the weight ends.
 std::vector<SoftAxis::Sample> SoftAxis::samples(const Curve& curve, const Vec3& p,
-                                                std::span<const double> minima, double nearest,
+                                                std::span<const double> minima, double nearest, double factor,
                                                 double width) const {
   const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
   const double wanted = nearest / (kSamples * curve.speed);
@@ -83,7 +83,7 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Curve& curve, const Vec3& 
   const auto sample = [&](double index) {
     const double t = std::clamp(index * step, start, end);
     const Vec3 c = curve.curve->value(t);
-    return Sample{t, ((c - p).norm() - nearest) / (width * nearest), c};
+    return Sample{t, (factor * (c - p).norm() - nearest) / (width * nearest), c};
   };
   double done = std::floor(start / step) - 1.0;
   const double last = std::ceil(end / step);
@@ -119,7 +119,7 @@ void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::
 }
 
 std::vector<Influence> SoftAxis::influences(const Vec3& p, std::span<const Candidate> all,
-                                            double width) const {
+                                            std::span<const double> factors, double width) const {
   std::vector<Influence> out;
   std::vector<double> minima, weight;
   double sum = 0.0;
@@ -129,7 +129,8 @@ std::vector<Influence> SoftAxis::influences(const Vec3& p, std::span<const Candi
     for (const Candidate& c : all)
       if (c.pair == pair && c.open) minima.push_back(c.at.t);
     std::sort(minima.begin(), minima.end());
-    lay_down(curve, samples(curve, p, minima, all.front().at.distance, width), weight);
+    const double factor = factors[pair] / factors[all.front().pair];
+    lay_down(curve, samples(curve, p, minima, all.front().at.distance, factor, width), weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
       if (weight[k] > 0.0) out.push_back({pair, curve.nodes[k], weight[k]});
@@ -138,30 +139,33 @@ std::vector<Influence> SoftAxis::influences(const Vec3& p, std::span<const Candi
   return sum > 0.0 ? normalized(std::move(out), sum) : out;
 }
 
-double SoftAxis::ambiguity(const Vec3& p, std::span<const Candidate> all, double band) const {
+double SoftAxis::ambiguity(const Vec3& p, std::span<const Candidate> all, std::span<const double> factors,
+                           double band) const {
   const Candidate& nearest = all.front();
   const double distance2 = (p - nearest.at.point).squaredNorm(), distance = std::sqrt(distance2);
   const double here = curves_[nearest.pair].length(nearest.at.t);
   double lack = nearest.at.strength / band;
-  const auto look = [&](bool same, double length, const Vec3& place) {
+  const auto look = [&](std::uint32_t pair, double length, const Vec3& place) {
+    const bool same = pair == nearest.pair;
+    const double factor = factors[pair] / factors[nearest.pair];
     const double apart2 = (place - nearest.at.point).squaredNorm();
     // Too near to be told from the nearest itself, whose curvature has been looked at.
     if (!(apart2 > 1e-6 * distance2)) return;
     const double apart = std::sqrt(apart2), strands = std::max(1.0, 2.0 * distance / apart);
-    const double excess = (place - p).squaredNorm() - distance2;
+    const double excess = factor * factor * (place - p).squaredNorm() - distance2;
     if (excess >= lack * band * strands * apart2) return;
     const double round = same ? std::abs(length - here) / (2.0 * apart) : strands;
     lack = std::min(lack, excess / (apart2 * band * std::clamp(round, 1.0, strands)));
   };
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
     for (std::size_t k = 0; k < curves_[pair].points.size(); ++k)
-      look(pair == nearest.pair, curves_[pair].lengths[k], curves_[pair].points[k]);
-  for (const Candidate& c : all.subspan(1))
-    look(c.pair == nearest.pair, curves_[c.pair].length(c.at.t), c.at.point);
+      look(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
+  for (const Candidate& c : all.subspan(1)) look(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
   return fall(lack, 0.08, 1.0);
 }
 
-bool SoftAxis::may_be_ambiguous(const Vec3& p, const Candidate& nearest, double band) const {
+bool SoftAxis::may_be_ambiguous(const Vec3& p, const Candidate& nearest, std::span<const double> factors,
+                                double band) const {
   if (nearest.at.strength < band) return true;
   const double distance = (p - nearest.at.point).norm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
@@ -174,7 +178,7 @@ bool SoftAxis::may_be_ambiguous(const Vec3& p, const Candidate& nearest, double 
           pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
       if (!own) {
         apart += curve.spacing;
-        away = std::max(distance, away - curve.spacing);
+        away = std::max(distance, factors[pair] / factors[nearest.pair] * (away - curve.spacing));
       }
       const double strands = own ? 1.0 : std::max(1.0, 2.0 * distance / apart);
       if (own && !(apart > 1e-3 * distance)) continue;

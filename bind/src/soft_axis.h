@@ -10,13 +10,17 @@ namespace tendril::bind {
 /// in it jumps when p moves, whether projections come, go, change places or merge; unlike a choice among
 /// projections it has no singular points either. The weights are laid down on fixed places of each curve, two
 /// a span, by linear interpolation in t.
+///
+/// `factors` are those of Facing at p, one for each curve: the distances to it count so many times as much,
+/// in units of the factor of the nearest.
 class SoftAxis {
  public:
   explicit SoftAxis(std::span<const CurveProjector> projectors);
 
   /// \param all  every projection of p within `width` of the nearest; those not open are left out with their
   ///             part of the curve
-  std::vector<Influence> influences(const Vec3& p, std::span<const Candidate> all, double width) const;
+  std::vector<Influence> influences(const Vec3& p, std::span<const Candidate> all,
+                                    std::span<const double> factors, double width) const;
 
   /// How close p is to where its nearest projection jumps or splits: 1 there, 0 beyond `band`.
   ///
@@ -26,10 +30,12 @@ class SoftAxis {
   /// c is not; what it lacks to 1 is compared with `band`. A strand of the axis that is near c, but far along
   /// the axis, takes over across a plane in their middle: there the distance of p to the plane is compared
   /// with band |p - c|.
-  double ambiguity(const Vec3& p, std::span<const Candidate> all, double band) const;
+  double ambiguity(const Vec3& p, std::span<const Candidate> all, std::span<const double> factors,
+                   double band) const;
 
   /// False where ambiguity() is 0, whatever other projections there are; cheaper, and needs none of them.
-  bool may_be_ambiguous(const Vec3& p, const Candidate& nearest, double band) const;
+  bool may_be_ambiguous(const Vec3& p, const Candidate& nearest, std::span<const double> factors,
+                        double band) const;
 
  private:
   struct Curve {
@@ -49,7 +55,7 @@ class SoftAxis {
   };
   static void lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
   std::vector<Sample> samples(const Curve& curve, const Vec3& p, std::span<const double> minima,
-                              double nearest, double width) const;
+                              double nearest, double factor, double width) const;
 
   std::vector<Curve> curves_;
 };

@@ -72,11 +72,12 @@ TEST_F(Armed, TheFlankStaysWithTheBodyAndTheHandWithTheArm) {
     const std::vector<CurvePair> posed{rest[0], pair_through(arm(0.8), arm())};
     std::vector<Vec3> out(mesh.points.size());
     MeshFollower(binding, std::vector<std::size_t>{0, 1}, out).follow(0.0, posed);
+    double moved = 0.0;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const Vec3& p = mesh.points[i];
       if (on_flank(p)) {
         EXPECT_EQ(binding.pair_of(i), 0U);
-        EXPECT_LT((out[i] - p).norm(), 1e-12) << p.transpose();
+        moved = std::max(moved, (out[i] - p).norm());
       }
       if (on_hand(p)) {
         EXPECT_EQ(binding.pair_of(i), 1U);
@@ -84,7 +85,7 @@ TEST_F(Armed, TheFlankStaysWithTheBodyAndTheHandWithTheArm) {
       }
     }
     EXPECT_LT(binding.report().rest_error, 1e-14);
-    EXPECT_GT(binding.report().gated.size(), 30U);
+    EXPECT_LT(moved, mode == BindMode::nearest ? 1e-12 : 0.01);
   }
 }
 
@@ -127,6 +128,60 @@ TEST_F(Armed, DoesNotMindWhichWayFacesLook) {
   const Binding one(rest, mesh, {.mode = BindMode::nearest});
   const Binding two(rest, flipped, {.mode = BindMode::nearest});
   for (std::size_t i = 0; i < mesh.points.size(); ++i) EXPECT_EQ(one.pair_of(i), two.pair_of(i));
+}
+
+/// Here the arm hangs down from a shoulder: its skin and the flank's run into each other in the armpit.
+class Hanging : public ::testing::Test {
+ protected:
+  static std::vector<Vec3> spine() {
+    std::vector<Vec3> p;
+    for (int k = 0; k <= 10; ++k) p.emplace_back(0, -1.0 + 0.2 * k, 0);
+    return p;
+  }
+  static std::vector<Vec3> arm(double lift = 0.0) {
+    std::vector<Vec3> p{{0, 0.8, 0}, {0.2, 0.8, 0}, {0.4, 0.8, 0}, {0.55, 0.75, 0}};
+    for (int k = 1; k <= 6; ++k)
+      p.push_back(Vec3(0.62, 0.7, 0) + (0.2 * k - 0.1) * Vec3(std::sin(lift), -std::cos(lift), 0));
+    return p;
+  }
+  static PolygonMesh mesh(double step) {
+    const std::vector<Vec3> limb = arm();
+    const test::Field field = [&](const Vec3& p) {
+      double least = test::capsule_field(p, Vec3(0, -1, 0), Vec3(0, 1, 0), 0.4);
+      for (std::size_t k = 1; k < limb.size(); ++k)
+        least = std::min(least, test::capsule_field(p, limb[k - 1], limb[k], 0.08));
+      return least;
+    };
+    return test::Isosurface(field, Vec3(-0.51, -1.52, -0.53), Vec3(0.8, 1.5, 0.5), step).mesh();
+  }
+};
+
+TEST_F(Hanging, TheFlankStaysAndTheArmpitStretchesWithoutATear) {
+  const std::vector<CurvePair> rest{pair_through(spine(), spine()), pair_through(arm(), arm())};
+  const std::vector<CurvePair> posed{rest[0], pair_through(arm(0.8), arm())};
+  std::vector<double> largest;
+  for (const double step : {0.0401, 0.02005}) {
+    const PolygonMesh body = mesh(step);
+    const Binding binding(rest, body, {.mode = BindMode::continuous});
+    std::vector<Vec3> out(body.points.size());
+    binding.update(posed, out);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Vec3& p = body.points[i];
+      if (std::hypot(p.x(), p.z()) < 0.41 && p.y() < 0.3)
+        EXPECT_LT((out[i] - p).norm(), 1e-3) << p.transpose();
+      if (p.x() > 0.53 && p.y() < 0.3) EXPECT_GT((out[i] - p).norm(), 0.2) << p.transpose();
+    }
+    double stretch = 0.0;
+    for (std::size_t f = 0; f < body.face_count(); ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = body.face(f)[k], b = body.face(f)[(k + 1) % 3];
+        const double length = (body.points[a] - body.points[b]).norm();
+        if (length > 0.1 * step) stretch = std::max(stretch, (out[a] - out[b]).norm() / length);
+      }
+    largest.push_back(stretch);
+  }
+  EXPECT_LT(largest[0], 5.0);
+  EXPECT_LT(largest[1], 1.3 * largest[0]);  // a tear's would double
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST(AxisCommand, WritesWhatBindAndDeformRead) {
 TEST(AxisCommand, APoseMustHaveAsManyCurves) {
   const Folder folder;
   folder.write("tube.off", tube_off());
-  folder.write("one.json", R"({"version": 1, "degree": 1, "points": [[0,0,0],[0,1,0]], "orientation": [1,0,0]})");
+  folder.write("one.json",
+               R"({"version": 1, "degree": 1, "points": [[0,0,0],[0,1,0]], "orientation": [1,0,0]})");
   folder.write("two.json", R"({"version": 1, "curves": [
     {"degree": 1, "points": [[0,0,0],[0,1,0]], "orientation": [1,0,0]},
     {"name": "b", "degree": 1, "points": [[0,0,0],[0,1,1]], "orientation": [1,0,0]}]})");

@@ -243,5 +243,37 @@ TEST(Check, CountsAndLoads) {
   }
 }
 
+/// The tube of full_scene() between two curve-pairs, of which the second turns: what is nearer to that goes
+/// with it.
+TEST(Run, AMeshOfTwoCurvePairsFollowsBoth) {
+  const Folder folder;
+  folder.write("tube.off", tube_off(17));
+  Json scene = Json::parse(full_scene());
+  scene["forces"] = Json::array();
+  scene["curve_pairs"][0]["points"] = Json::parse("[[0, 0, 0], [0, 0.2, 0], [0, 0.4, 0]]");
+  scene["curve_pairs"][0]["anchors"] = Json::parse(R"([{"nodes": [0, 5], "hold": "both"}])");
+  scene["curve_pairs"][0].erase("reach");
+  Json& second = scene["curve_pairs"][1];
+  second["points"] = Json::parse("[[0, 0.6, 0], [0, 0.75, 0], [0, 0.9, 0], [0, 1, 0]]");
+  second["orientation"] = {1, 0, 0};
+  second["anchors"] = Json::parse(
+      R"([{"nodes": [0, 3], "hold": "position", "translation": {"amplitude": [0.2, 0, 0], "frequency": 2.5}}])");
+  scene["bound_to"] = {"stem", "chain"};
+  folder.write("scene.json", scene.dump());
+  const Outcome outcome = folder.run("run scene.json --out out --no-pictures --double --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json summary = Json::parse(outcome.out);
+  EXPECT_GT(summary.at("binding").at("ambiguous").get<int>(), 0);
+  EXPECT_LT(summary.at("binding").at("rest_error").get<double>(), 1e-14);
+  const bind::PolygonMesh rest = bind::read_mesh(folder / "tube.off");
+  const bind::PolygonMesh last = bind::read_mesh(folder / "out/frame_0005.ply");
+  for (std::size_t i = 0; i < rest.points.size(); ++i) {
+    const Vec3 move = last.points[i] - rest.points[i];
+    if (rest.points[i].y() < 0.3) EXPECT_LT(move.norm(), 1e-9);
+    if (rest.points[i].y() > 0.8) EXPECT_NEAR(move.x(), 0.2, 1e-6);
+    EXPECT_LE(std::abs(move.x()), 0.25);
+  }
+}
+
 }  // namespace
 }  // namespace tendril::test

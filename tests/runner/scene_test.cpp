@@ -36,6 +36,23 @@ TEST(SceneReader, ASizeListedPerPointIsTheSameAsTheSizeGivenOnce) {
   }
 }
 
+TEST(SceneReader, AMeshFollowsTheTreeOfTheFirstOrThoseNamed) {
+  Json scene = Json::parse(full_scene());
+  EXPECT_EQ(read(scene).bound_to, (std::vector<std::size_t>{0}));
+  scene["bound_to"] = {"chain", "stem"};
+  EXPECT_EQ(read(scene).bound_to, (std::vector<std::size_t>{1, 0}));
+  scene.erase("bound_to");
+  EXPECT_EQ(read(scene).bound_to, (std::vector<std::size_t>{0}));
+  Json branch = scene["curve_pairs"][0];
+  branch.erase("anchors");
+  branch["name"] = "branch";
+  branch["points"] = Json::parse("[[0, 0, 0], [0.2, 0, 0], [0.4, 0, 0]]");
+  branch["orientation"] = {0, 0, 1};
+  branch["joint"] = {{"curve_pair", "stem"}, {"node", 3}, {"relative", true}};
+  scene["curve_pairs"].push_back(branch);
+  EXPECT_EQ(read(scene).bound_to, (std::vector<std::size_t>{0, 2}));
+}
+
 TEST(SceneReader, ATaperedRodHasTheMassOfItsCone) {
   Json scene = Json::parse(full_scene());
   scene["curve_pairs"][0]["nodes"] = 101;

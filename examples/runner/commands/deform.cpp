@@ -21,7 +21,7 @@ struct Options {
 
 /// The curve-pairs at rest and posed, one for one. At equal length their knots need not agree.
 Axes axes_of(const Options& options) {
-  if (!options.equal_length) return read_axes({options.axis}, {options.pose});
+  if (!options.equal_length) return read_axes({options.axis}, {options.pose}, "the same, or --equal-length");
   Axes axes;
   const std::vector<CurveFile> rest = read_curves(options.axis);
   for (const CurveFile& curve : rest) axes.rest.push_back(curve.pair);

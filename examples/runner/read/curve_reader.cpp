@@ -117,7 +117,8 @@ std::vector<CurveFile> read_curves(const std::string& path, std::span<const Curv
   return out;
 }
 
-Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed) {
+Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed,
+               const std::string& expected_knots) {
   if (!posed.empty() && posed.size() != rest.size())
     throw InvalidInput("--pose", std::to_string(posed.size()) + " files",
                        std::to_string(rest.size()) + ", one for each --axis");
@@ -129,8 +130,8 @@ Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::stri
     const std::vector<CurveFile> in_pose = read_curves(posed[i], at_rest);
     for (std::size_t k = 0; k < in_pose.size(); ++k) {
       if (!(in_pose[k].pair.knots() == at_rest[k].pair.knots()))
-        throw InvalidInput(in_pose[k].place, "its knots or degree differ from those of " + at_rest[k].place,
-                           "the same");
+        throw InvalidInput(in_pose[k].place, "its knots or degree differ from those of " + rest[i],
+                           expected_knots);
       axes.posed.push_back(in_pose[k].pair);
     }
   }

@@ -28,12 +28,13 @@ CurveFile read_curve(const std::string& path, const CurveFile* rest = nullptr);
 /// \param rest  as many as the file holds, else refused; or null
 std::vector<CurveFile> read_curves(const std::string& path, std::span<const CurveFile> rest = {});
 
-/// The curve-pairs of the files of axes at rest and, one file for each or none, of their poses. Each posed one
-/// is on the knots of its rest, else refused.
+/// The curve-pairs of the files of axes at rest and, one file for each or none, of their poses. Each posed
+/// one is on the knots of its rest, else refused with the words given.
 struct Axes {
   std::vector<CurvePair> rest, posed;
 };
-Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed);
+Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed,
+               const std::string& expected_knots = "the same");
 
 Parametrisation read_parametrisation(const JsonNode& parent);
 

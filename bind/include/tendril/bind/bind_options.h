@@ -8,7 +8,9 @@
 /// What a Binding is asked for, and what it says about itself.
 namespace tendril::bind {
 
-/// What a point is bound to.
+/// What a point is bound to. Nearest is meant by distance; of several curve-pairs, that to one which the
+/// faces at a point look towards, as a body's do towards the arm beside it, counts for up to ten times as
+/// much.
 enum class BindMode {
   /// Its nearest projection: where that jumps from one place of the axis to another, the mesh tears.
   nearest,

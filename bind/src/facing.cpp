@@ -1,0 +1,112 @@
+#include "facing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "parallel.h"
+
+namespace tendril::bind {
+namespace {
+
+constexpr double kMost = 2.302585092994046;    ///< log 10
+constexpr double kSlope = 1.0;                 ///< of the logarithm, over way by distance
+constexpr double kAcross = 0.3, kFull = -0.1;  ///< cosines from which, and at which, it counts
+constexpr double kClear = 0.2;                 ///< share of the surface that must agree on a side
+
+/// Sums of the neighbouring faces' normals, as long as the faces are large.
+std::vector<Vec3> normals(const PolygonMesh& mesh) {
+  std::vector<Vec3> out(mesh.points.size(), Vec3::Zero());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const Vec3& p = mesh.points[face[0]];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 2; k < face.size(); ++k)
+      normal += (mesh.points[face[k - 1]] - p).cross(mesh.points[face[k]] - p);
+    for (const std::uint32_t i : face) out[i] += normal;
+  }
+  return out;
+}
+
+/// Of the cosine between a normal and the way from the curve.
+double reluctance(double cosine) {
+  const double s = std::clamp((kAcross - cosine) / (kAcross - kFull), 0.0, 1.0);
+  return kMost * s * s * (3.0 - 2.0 * s);
+}
+
+}  // namespace
+
+Facing::Facing(std::span<const CurveProjector> projectors, const PolygonMesh& mesh,
+               const Neighbours& neighbours, int threads)
+    : pairs_(projectors.size()) {
+  if (pairs_ < 2) return;
+  look(projectors, mesh, threads);
+  if (factor_.empty()) return;
+  in_parts(pairs_, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) soften(static_cast<std::uint32_t>(k), mesh, neighbours);
+  });
+  for (float& f : factor_) f = std::exp(f);
+  distance_ = {};
+}
+
+/// Distances and cosines, and which side is the outside.
+void Facing::look(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, int threads) {
+  const std::vector<Vec3> normal = normals(mesh);
+  factor_.resize(mesh.points.size() * pairs_);
+  distance_.resize(factor_.size());
+  in_parts(mesh.points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> hints;
+    for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < pairs_; ++k) {
+        const Projection at = projectors[k].nearest(mesh.points[i], hints[k]);
+        hints[k] = at.t;
+        const double scale = at.distance * normal[i].norm();
+        const double cosine = scale > 0.0 ? (mesh.points[i] - at.point).dot(normal[i]) / scale : 0.0;
+        factor_[i * pairs_ + k] = static_cast<float>(cosine);
+        distance_[i * pairs_ + k] = static_cast<float>(at.distance);
+      }
+  });
+  double away = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const auto first = distance_.begin() + static_cast<std::ptrdiff_t>(i * pairs_);
+    const auto nearest = std::min_element(first, first + static_cast<std::ptrdiff_t>(pairs_));
+    away += static_cast<double>(factor_[static_cast<std::size_t>(nearest - distance_.begin())]) *
+            normal[i].norm();
+    weight += normal[i].norm();
+  }
+  if (!(std::abs(away) > kClear * weight)) {
+    factor_ = {};
+    distance_ = {};
+    return;
+  }
+  for (float& f : factor_)
+    f = static_cast<float>(reluctance(std::copysign(1.0, away) * static_cast<double>(f)));
+}
+
+/// The largest function below the one there is whose slope is bounded, by Dijkstra's algorithm.
+void Facing::soften(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours) {
+  const auto value = [&](std::uint32_t i) -> float& { return factor_[i * pairs_ + pair]; };
+  using Entry = std::pair<float, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
+    const auto near = neighbours.of(i);
+    if (std::any_of(near.begin(), near.end(), [&](std::uint32_t n) { return value(n) > value(i); }))
+      waiting.push({value(i), i});
+  }
+  while (!waiting.empty()) {
+    const auto [reached, i] = waiting.top();
+    waiting.pop();
+    if (reached > value(i)) continue;
+    for (const std::uint32_t next : neighbours.of(i)) {
+      const double way = (mesh.points[next] - mesh.points[i]).norm();
+      const double far = std::max(1e-30, static_cast<double>(distance_[next * pairs_ + pair]));
+      const auto most = static_cast<float>(static_cast<double>(value(i)) + kSlope * way / far);
+      if (!(most < value(next))) continue;
+      value(next) = most;
+      waiting.push({most, next});
+    }
+  }
+}
+
+}  // namespace tendril::bind
