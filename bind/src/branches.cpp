@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "islands.h"
 #include "parallel.h"
 #include "soft_axis.h"
 
@@ -61,8 +63,9 @@ bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle,
 /// to a point where the branch is the nearest.
 class Gate {
  public:
-  Gate(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, CandidateLists& lists)
-      : projectors_(projectors), mesh_(mesh), lists_(lists), neighbours_(mesh) {}
+  Gate(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, const Neighbours& neighbours,
+       CandidateLists& lists)
+      : projectors_(projectors), mesh_(mesh), lists_(lists), neighbours_(neighbours) {}
 
   /// Points with a closed projection, ascending.
   std::vector<std::uint32_t> run() {
@@ -103,9 +106,40 @@ class Gate {
   std::span<const CurveProjector> projectors_;
   const PolygonMesh& mesh_;
   CandidateLists& lists_;
-  Neighbours neighbours_;
+  const Neighbours& neighbours_;
   std::vector<Node> waiting_;
 };
+
+/// The projections of a point of an island: on the curve-pairs of the points around it alone.
+std::vector<Candidate> bridged(std::span<const CurveProjector> projectors, const Vec3& p,
+                               std::span<const std::uint32_t> pairs, double band) {
+  Candidate nearest{0, {}};
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const LocalMinimum at = projectors[pairs[k]].all(p, 0.0).front();
+    if (k == 0 || at.distance < nearest.at.distance) nearest = {pairs[k], at};
+  }
+  std::vector<Candidate> out{nearest};
+  for (const Candidate& c : candidates(projectors, p, nearest, band)) {
+    const bool other = c.pair != nearest.pair || c.at.t != nearest.at.t;
+    if (other && std::binary_search(pairs.begin(), pairs.end(), c.pair)) out.push_back(c);
+  }
+  return out;
+}
+
+/// Gives the points of islands the projections of their surroundings. \return  those points, ascending
+std::vector<std::uint32_t> bridge_islands(std::span<const CurveProjector> projectors, const PolygonMesh& mesh,
+                                          const Neighbours& neighbours, double band, CandidateLists& lists) {
+  std::vector<Candidate> nearest;
+  for (const auto& list : lists) nearest.push_back(list.front());
+  std::vector<std::uint32_t> points;
+  for (const Island& island : find_islands(mesh, neighbours, nearest))
+    for (const std::uint32_t i : island.points) {
+      lists[i] = bridged(projectors, mesh.points[i], island.pairs, band);
+      points.push_back(i);
+    }
+  std::sort(points.begin(), points.end());
+  return points;
+}
 
 }  // namespace
 
@@ -145,8 +179,15 @@ Branches find_branches(std::span<const CurveProjector> projectors, const Polygon
     }
   });
   Branches branches;
-  if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
-    branches.gated = Gate(projectors, mesh, lists).run();
+  const bool several = projectors.size() > 1;
+  if (several || std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; })) {
+    const Neighbours neighbours(mesh);
+    std::vector<std::uint32_t> refused;
+    if (several) refused = bridge_islands(projectors, mesh, neighbours, band, lists);
+    const std::vector<std::uint32_t> gated = Gate(projectors, mesh, neighbours, lists).run();
+    std::set_union(refused.begin(), refused.end(), gated.begin(), gated.end(),
+                   std::back_inserter(branches.gated));
+  }
   branches.influences.resize(count);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -63,6 +67,18 @@ class TextCursor : public ItemName {
   [[noreturn]] void fail(const std::string& reason, const std::string& expected) const;
 
  private:
+  enum Kind : std::uint8_t { word, blank, line_end, hash };
+  static constexpr std::array<Kind, 256> make_kinds() {
+    std::array<Kind, 256> kinds{};
+    for (const char c : {' ', '\t', '\v', '\f'}) kinds[static_cast<unsigned char>(c)] = blank;
+    kinds['\n'] = kinds['\r'] = line_end;
+    kinds['#'] = hash;
+    return kinds;
+  }
+  Kind kind() const {
+    static constexpr std::array<Kind, 256> kinds = make_kinds();
+    return kinds[static_cast<unsigned char>(bytes_[next_])];
+  }
   void skip_blanks();
   void skip_to_token();
   void take_line_end();
@@ -70,9 +86,13 @@ class TextCursor : public ItemName {
 
   std::string_view bytes_, last_;
   std::string name_;
-  bool comments_;
+  bool comments_, rounds_to_nearest_;
   std::size_t next_ = 0, line_ = 1, last_line_ = 1;
 };
+
+/// A token of at most 18 digits that make a whole number up to 2^53, with a sign and a point at most: exact,
+/// or rounded once (Clinger 1990), where the machine rounds to nearest. False for all others.
+bool parse_short_number(std::string_view token, double& value);
 
 /// A finite or infinite double from a whole token, independent of the locale; a plus sign is allowed.
 /// False when the token is no number or exceeds the range of double.
@@ -106,6 +126,7 @@ class ByteCursor : public ItemName {
  private:
   template <class T>
   double take();
+  [[noreturn]] void fail_short(std::uint64_t count, std::size_t size) const;
 
   std::string_view bytes_;
   std::string name_;
@@ -113,5 +134,125 @@ class ByteCursor : public ItemName {
   std::size_t next_, last_begin_;
   double last_ = 0.0;
 };
+
+// What is called for every value stands here, to be inlined.
+
+inline void TextCursor::skip_blanks() {
+  while (next_ < bytes_.size() && kind() == blank) ++next_;
+  if (comments_ && next_ < bytes_.size() && kind() == hash) {
+    while (next_ < bytes_.size() && kind() != line_end) ++next_;
+  }
+}
+
+inline void TextCursor::take_line_end() {
+  const bool pair = bytes_[next_] == '\r' && next_ + 1 < bytes_.size() && bytes_[next_ + 1] == '\n';
+  next_ += pair ? 2 : 1;
+  ++line_;
+}
+
+inline void TextCursor::skip_to_token() {
+  skip_blanks();
+  while (next_ < bytes_.size() && kind() == line_end) {
+    take_line_end();
+    skip_blanks();
+  }
+}
+
+inline std::string_view TextCursor::take_token() {
+  const std::size_t begin = next_;
+  while (next_ < bytes_.size() && (kind() == word || (kind() == hash && !comments_))) ++next_;
+  last_ = bytes_.substr(begin, next_ - begin);
+  last_line_ = line_;
+  return last_;
+}
+
+inline std::string_view TextCursor::token(std::string_view expected) {
+  skip_to_token();
+  if (next_ == bytes_.size()) {
+    last_line_ = line_;
+    fail("the file ends here", std::string(expected));
+  }
+  return take_token();
+}
+
+inline double TextCursor::number() {
+  double value = 0.0;
+  const std::string_view text = token("a number");
+  if (rounds_to_nearest_ && parse_short_number(text, value)) return value;
+  if (!parse_number(text, value)) fail(found() + " is not a number of double precision", "a number");
+  return value;
+}
+
+inline bool TextCursor::line_done() {
+  skip_blanks();
+  return next_ == bytes_.size() || kind() == line_end;
+}
+
+inline bool parse_short_number(std::string_view token, double& value) {
+  static constexpr std::array<double, 19> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
+                                                 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+  const bool negative = token.starts_with('-');
+  if (negative) token.remove_prefix(1);
+  if (token.size() > 19) return false;
+  std::uint64_t digits = 0;
+  std::size_t count = 0, whole = token.size();
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const auto digit = static_cast<unsigned char>(token[i] - '0');
+    if (digit < 10) {
+      digits = 10 * digits + digit;
+      ++count;
+    } else if (token[i] == '.' && whole == token.size()) {
+      whole = i;
+    } else {
+      return false;
+    }
+  }
+  if (count == 0 || count > 18 || digits > std::uint64_t{1} << 53) return false;
+  const double size = static_cast<double>(digits) / powers[count - std::min(whole, count)];
+  value = negative ? -size : size;
+  return true;
+}
+
+inline void ByteCursor::require(std::uint64_t count, std::size_t size) const {
+  if (size == 0 || count <= remaining() / size) return;
+  fail_short(count, size);
+}
+
+template <class T>
+double ByteCursor::take() {
+  if (sizeof(T) > remaining()) fail_short(1, sizeof(T));
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), bytes_.data() + next_, sizeof(T));
+  if (big_endian_ != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+  last_begin_ = next_;
+  next_ += sizeof(T);
+  last_ = static_cast<double>(std::bit_cast<T>(raw));
+  return last_;
+}
+
+inline double ByteCursor::number(Scalar type) {
+  switch (type) {
+    case Scalar::int8:
+      return take<std::int8_t>();
+    case Scalar::uint8:
+      return take<std::uint8_t>();
+    case Scalar::int16:
+      return take<std::int16_t>();
+    case Scalar::uint16:
+      return take<std::uint16_t>();
+    case Scalar::int32:
+      return take<std::int32_t>();
+    case Scalar::uint32:
+      return take<std::uint32_t>();
+    case Scalar::int64:
+      return take<std::int64_t>();
+    case Scalar::uint64:
+      return take<std::uint64_t>();
+    case Scalar::float32:
+      return take<float>();
+    default:
+      return take<double>();
+  }
+}
 
 }  // namespace tendril::bind

@@ -27,16 +27,22 @@ class ColorList {
     }
     if (fractions_ && above_one_)
       in.fail("colors of both ranges in one list", "all in 0..255 or all in 0..1");
+    if (!any_) entries_.assign(before_first_, {none, none, none, none});
+    any_ = true;
     Entry entry{0, 0, 0, opaque};
     std::transform(rgba.begin(), rgba.end(), entry.begin(), [](double v) { return static_cast<float>(v); });
     entries_.push_back(entry);
-    any_ = true;
   }
-  void add_none() { entries_.push_back({none, none, none, none}); }
+  void add_none() {
+    if (any_)
+      entries_.push_back({none, none, none, none});
+    else
+      ++before_first_;  // most files have no color at all
+  }
 
   /// One color per entry, or nothing when no entry has one.
   std::vector<Color> finish() const {
-    std::vector<Color> colors(any_ ? entries_.size() : 0);
+    std::vector<Color> colors(entries_.size());
     for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = finished(entries_[i]);
     return colors;
   }
@@ -56,6 +62,7 @@ class ColorList {
   }
 
   std::vector<Entry> entries_;
+  std::size_t before_first_ = 0;
   bool fractions_ = false, above_one_ = false, any_ = false;
 };
 
@@ -142,10 +149,11 @@ OffHeader read_header(TextCursor& in) {
 }
 
 void reserve(PolygonMesh& mesh, const OffHeader& header, std::size_t bytes, std::size_t least_vertex,
-             std::size_t least_face) {
+             std::size_t least_face, std::size_t least_corner) {
   reserve_within(mesh.points, header.vertices, bytes, least_vertex);
   if (header.normals) reserve_within(mesh.point_normals, header.vertices, bytes, 2 * least_vertex);
   reserve_within(mesh.face_begin, header.faces + 1, bytes, least_face);
+  reserve_within(mesh.corners, 3 * header.faces, bytes, least_corner);
 }
 
 // ---- text
@@ -177,6 +185,7 @@ void read_face(TextCursor& in, std::size_t vertices, PolygonMesh& mesh, ColorLis
   const std::size_t end = mesh.face_begin.back();
   while (mesh.corners.size() < end) add_corner(in, mesh, in.number(), vertices);
 
+  if (in.line_done()) return colors.add_none();  // the most frequent by far
   const char* const expected = "0, 1, 3 or 4 color values to the end of the line";
   const LineRest rest = take_line(in, 4, expected);
   if (rest.count == 2 || (rest.count == 1 && rest.fraction(1))) in.fail("a color that is none", expected);
@@ -247,7 +256,7 @@ void read_body(Cursor& in, const OffHeader& header, PolygonMesh& mesh, ColorList
 
 PolygonMesh read_text(TextCursor& in, const OffHeader& header) {
   PolygonMesh mesh;
-  reserve(mesh, header, in.remaining(), 6, 8);
+  reserve(mesh, header, in.remaining(), 6, 8, 2);
   ColorList point_colors, face_colors;
   read_body(in, header, mesh, point_colors, face_colors);
   if (!in.done()) {
@@ -265,7 +274,7 @@ PolygonMesh read_binary(ByteCursor in, OffHeader header) {
   header.faces = read_count(in, "faces");
   in.number(Scalar::int32);  // edges, not used by any reader
   PolygonMesh mesh;
-  reserve(mesh, header, in.remaining(), 12, 20);
+  reserve(mesh, header, in.remaining(), 12, 20, 4);
   ColorList point_colors, face_colors;
   read_body(in, header, mesh, point_colors, face_colors);
   if (!in.done())

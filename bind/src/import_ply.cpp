@@ -126,9 +126,15 @@ class BodyReader {
     return std::max<std::size_t>(bytes, 1);
   }
 
+  std::size_t least_of_corner(const PlyElement& element) const {
+    for (const PlyProperty& p : element.properties)
+      if (slot_of(p, true) == indices) return Values::least(p.type);
+    return 1;
+  }
+
   std::uint64_t list_length(const PlyProperty& list) {
     const double length = in_.number(*list.count_type);
-    if (!(length >= 0 && length <= id_limit && length == std::floor(length))) {
+    if (!(length >= 0 && length <= id_limit && is_whole(length))) {
       in_.fail("a list of length " + in_.found(), "a whole number in [0, 2^32)");
     }
     in_.require(static_cast<std::uint64_t>(length), size_of(list.type));
@@ -141,7 +147,7 @@ class BodyReader {
 
   double take(const PlyProperty& property) {
     const double value = finite(in_, in_.number(property.type), "value");
-    if (!is_floating(property.type) && value != std::floor(value)) {
+    if (!is_floating(property.type) && !is_whole(value)) {
       in_.fail(in_.found() + " for an integer property", "a whole number");
     }
     return value;
@@ -161,7 +167,11 @@ class BodyReader {
     add_face(in_, mesh_, degree);
     in_.require(static_cast<std::uint64_t>(degree), size_of(list.type));
     const std::size_t end = mesh_.face_begin.back();
-    while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(list.type), points_);
+    // The usual types apart, so that the loop knows which.
+    if (list.type == Scalar::int32)
+      while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(Scalar::int32), points_);
+    else
+      while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(list.type), points_);
   }
 
   void read_record(const PlyElement& element, const Plan& plan, Record& record) {
@@ -205,6 +215,7 @@ class BodyReader {
     if (!plan.has_indices) return skip_element(element);  // the header check saw that it is empty
     const std::size_t least = least_bytes(element) + 3, bytes = in_.remaining() + 1;
     reserve_within(mesh_.face_begin, element.count + 1, bytes, least);
+    reserve_within(mesh_.corners, 3 * element.count, bytes, least_of_corner(element));
     if (plan.colors()) reserve_within(mesh_.face_colors, element.count, bytes, least);
     Record record{};
     record[alpha] = 255;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -18,6 +19,13 @@ namespace tendril::bind {
 /// Ids are 32-bit, and so are the offsets into the list of corners.
 inline constexpr double id_limit = 4294967295.0;
 
+/// std::floor is a call where the machine may lack the instruction.
+inline bool is_whole(double value) {
+  constexpr double kSmall = 4503599627370496.0;  // 2^52
+  return value > -kSmall && value < kSmall ? static_cast<double>(static_cast<std::int64_t>(value)) == value
+                                           : value == std::floor(value);
+}
+
 template <class Cursor>
 double finite(const Cursor& in, double value, const char* what) {
   if (!std::isfinite(value))
@@ -27,7 +35,7 @@ double finite(const Cursor& in, double value, const char* what) {
 
 template <class Cursor>
 void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
-  if (!(degree >= 3 && degree == std::floor(degree))) {
+  if (!(degree >= 3 && is_whole(degree))) {
     in.fail("a face of " + in.found() + " corners", "a whole number of at least 3 corners");
   }
   const double corners = static_cast<double>(mesh.corners.size()) + degree;
@@ -38,7 +46,7 @@ void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
 /// \param points  number of points the header promises; the readers fail later when they are not all there
 template <class Cursor>
 void add_corner(const Cursor& in, PolygonMesh& mesh, double index, std::size_t points) {
-  if (!(index >= 0 && index < static_cast<double>(points) && index == std::floor(index))) {
+  if (!(index >= 0 && index < static_cast<double>(points) && is_whole(index))) {
     in.fail("vertex index " + in.found(), "a whole number in [0, " + std::to_string(points) + ")");
   }
   mesh.corners.push_back(static_cast<std::uint32_t>(index));

@@ -19,8 +19,10 @@ Command run_command(CLI::App& parent);
 Command deform_command(CLI::App& parent);
 Command project_command(CLI::App& parent);
 Command check_command(CLI::App& parent);
+Command axis_command(CLI::App& parent);
 Command bind_command(CLI::App& parent);
 Command render_command(CLI::App& parent);
+Command repair_command(CLI::App& parent);
 Command report_command(CLI::App& parent);
 Command statics_command(CLI::App& parent);
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <tendril/base/error.h>
-#include <tendril/curve/fit.h>
+#include <tendril/curve/control_forces.h>
 
 #include <cmath>
 
@@ -42,6 +42,33 @@ TEST_P(EveryFit, PassesThroughThePoints) {
       EXPECT_NEAR((curve.value(fit.parameters()[k]) - data[k]).norm() / size, 0.0, 1e-11)
           << k << " of " << count;
   }
+}
+
+/// Moves of the masses and turns of their frames, against what the control points then do.
+TEST_P(EveryFit, TakesForcesBackToTheMasses) {
+  const auto [degree, how] = GetParam();
+  const std::vector<Vec3> points = random_chain(5, 14);
+  const Interpolator fit(degree, points, how);
+  Random random(6);
+  std::vector<Vec3> arm, dp, turn, dq;
+  ControlForces forces;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (auto* list : {&arm, &dp, &turn, &forces.primary, &forces.orientation})
+      list->push_back(random.in_cube());
+    dq.push_back(dp[i] + turn[i].cross(arm[i]));
+  }
+  const std::vector<Vec3> du = fit.solve(dp), dv = fit.solve(dq);
+  const MassLoads loads = loads_on_masses(fit, forces, arm);
+  double controls = 0.0, masses = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    controls += forces.primary[i].dot(du[i]) + forces.orientation[i].dot(dv[i]);
+    masses += loads.force[i].dot(dp[i]) + loads.torque[i].dot(turn[i]);
+    size += du[i].norm() + dv[i].norm();
+  }
+  EXPECT_NEAR(controls, masses, 1e-12 * size);
+  arm.pop_back();
+  EXPECT_THROW(loads_on_masses(fit, forces, arm), InvalidInput);
+  EXPECT_THROW(fit.solve_transposed(arm), InvalidInput);
 }
 
 TEST(FitParameters, FollowTheirFormulas) {

@@ -85,6 +85,14 @@ TEST(SceneReader, AnchorsMoveWithTheVelocityTheySay) {
   EXPECT_EQ(moving, 2);
 }
 
+TEST(SceneReader, AnchorsLetGoAtTheTimeTheySay) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["anchors"][0]["until"] = 0.3;
+  const runner::SceneFile file = read(scene);
+  EXPECT_EQ(file.scene.anchors.front().until, 0.3);
+  EXPECT_EQ(file.scene.anchors.back().until, HUGE_VAL);
+}
+
 TEST(SceneReader, AJointPlacesTheChildAndStiffensItsRoot) {
   Json scene = Json::parse(full_scene());
   scene["curve_pairs"][1].erase("anchors");

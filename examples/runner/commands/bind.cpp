@@ -22,28 +22,6 @@ struct Options {
   int refinements = bind::JudgeOptions{}.refinements, threads = 0;
 };
 
-struct Axes {
-  std::vector<CurvePair> rest, posed;
-};
-
-Axes read_axes(const Options& options) {
-  if (!options.poses.empty() && options.poses.size() != options.axes.size())
-    throw InvalidInput("--pose", std::to_string(options.poses.size()) + " files",
-                       std::to_string(options.axes.size()) + ", one for each --axis");
-  Axes axes;
-  for (std::size_t i = 0; i < options.axes.size(); ++i) {
-    const CurveFile rest = read_curve(options.axes[i]);
-    axes.rest.push_back(rest.pair);
-    if (options.poses.empty()) continue;
-    const CurveFile posed = read_curve(options.poses[i], &rest);
-    if (!(posed.pair.knots() == rest.pair.knots()))
-      throw InvalidInput(options.poses[i] + "#",
-                         "its knots or degree differ from those of " + options.axes[i], "the same");
-    axes.posed.push_back(posed.pair);
-  }
-  return axes;
-}
-
 OrderedJson to_json(const bind::BindReport& report) {
   return {{"rest_error", report.rest_error}, {"largest_gap", report.largest_gap},
           {"places", report.places},         {"beyond_ends", report.beyond_ends},
@@ -144,7 +122,7 @@ void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Bind
 int judge(const Options& options) {
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
-  const Axes axes = read_axes(options);
+  const Axes axes = read_axes(options.axes, options.poses);
   bind::BindOptions how{bind::BindMode::continuous, options.band, threads};
   if (options.nearest) how.mode = bind::BindMode::nearest;
   const bind::Binding binding(axes.rest, mesh, how);
@@ -178,7 +156,7 @@ Command bind_command(CLI::App& parent) {
       parent.add_subcommand("bind", "Binds a mesh to axes and judges by refinement whether a pose tears it");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axes, "curve file (JSON) at rest; may be given several times")
+  app->add_option("--axis", options->axes, "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
       ->required();
   app->add_option("--pose", options->poses, "curve file (JSON) of the posed axis, one for each --axis");
   app->add_option("--band", options->band, "width of transitions, in distances to the axis")

@@ -19,12 +19,25 @@ struct Options {
   int threads = 0;
 };
 
-void deform_at_equal_length(const bind::Binding& binding, const CurvePair& rest, const CurvePair& posed,
-                            MutablePoints out) {
-  const ArcLength rest_length(rest.primary()), posed_length(posed.primary());
-  const auto records = binding.records();
+/// The curve-pairs at rest and posed, one for one. At equal length their knots need not agree.
+Axes axes_of(const Options& options) {
+  if (!options.equal_length) return read_axes({options.axis}, {options.pose});
+  Axes axes;
+  const std::vector<CurveFile> rest = read_curves(options.axis);
+  for (const CurveFile& curve : rest) axes.rest.push_back(curve.pair);
+  for (const CurveFile& curve : read_curves(options.pose, rest)) axes.posed.push_back(curve.pair);
+  return axes;
+}
+
+void deform_at_equal_length(const bind::Binding& binding, const Axes& axes, MutablePoints out) {
+  std::vector<ArcLength> rest, posed;
+  for (std::size_t k = 0; k < axes.rest.size(); ++k) {
+    rest.emplace_back(axes.rest[k].primary());
+    posed.emplace_back(axes.posed[k].primary());
+  }
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = from_axial(posed, at_equal_length(rest_length, posed_length, records[i]));
+    const std::uint32_t k = binding.pair_of(i);
+    out[i] = from_axial(axes.posed[k], at_equal_length(rest[k], posed[k], binding.records()[i]));
   }
 }
 
@@ -33,18 +46,13 @@ int deform(const Options& options) {
     throw InvalidInput("--equal-length", "with --continuous", "one of the two");
   const int threads = thread_count(options.threads);
   bind::PolygonMesh mesh = bind::read_mesh(options.mesh);
-  const CurveFile rest = read_curve(options.axis);
-  const CurveFile posed = read_curve(options.pose, &rest);
-  if (!options.equal_length && !(posed.pair.knots() == rest.pair.knots())) {
-    throw InvalidInput(options.pose + "#", "its knots or degree differ from those of " + options.axis,
-                       "the same, or --equal-length");
-  }
+  const Axes axes = axes_of(options);
   const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
-  const bind::Binding binding({&rest.pair, 1}, mesh, {.mode = mode, .threads = threads});
+  const bind::Binding binding(axes.rest, mesh, {.mode = mode, .threads = threads});
   if (options.equal_length) {
-    deform_at_equal_length(binding, rest.pair, posed.pair, mesh.points);
+    deform_at_equal_length(binding, axes, mesh.points);
   } else {
-    binding.update(posed.pair, mesh.points, threads);
+    binding.update(axes.posed, mesh.points, threads);
   }
   mesh.point_normals.clear();
   bind::write_mesh(options.out, mesh);
@@ -73,8 +81,8 @@ Command deform_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
-  app->add_option("--axis", options->axis, "curve file (JSON) of the axis at rest")->required();
-  app->add_option("--pose", options->pose, "curve file (JSON) of the posed axis")->required();
+  app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")->required();
+  app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
   app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
   app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");

@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "read/scene_reader.h"
+#include "read/scene_binding.h"
 #include "write/interrupt.h"
 #include "write/json_output.h"
 #include "write/progress.h"
@@ -9,7 +9,6 @@
 
 #include <tendril/base/file.h>
 #include <tendril/bind/import.h>
-#include <tendril/curve/fit.h>
 
 #include <filesystem>
 #include <iostream>
@@ -20,7 +19,8 @@ namespace {
 struct Options {
   std::string scene, out, mesh;
   int threads = 0;
-  bool continuous = false, no_frames = false, no_pictures = false, double_precision = false, json = false;
+  bool continuous = false, nearest = false, no_frames = false, no_pictures = false, double_precision = false,
+       json = false;
 };
 
 SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
@@ -30,13 +30,6 @@ SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phas
   if (!file.mesh.empty()) mesh = bind::read_mesh(file.mesh);
   if (!file.mesh.empty() && mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
   return file;
-}
-
-/// The curve-pair through the rod's masses at rest, on the knots that the simulation will use.
-CurvePair rest_pair(const SceneFile& file, const Rod& rod) {
-  const int degree = std::min(file.options.degree, static_cast<int>(rod.p.size()) - 1);
-  const Interpolator fit(degree, rod.p, file.options.parametrisation);
-  return {fit.knots(), fit.solve(rod.p), fit.solve(rod.q)};
 }
 
 /// A scene ready to run. Whatever is wrong with the input has been refused when it stands.
@@ -54,13 +47,8 @@ struct Prepared {
         simulation(system, system.rest_state(), file.options) {
     if (file.mesh.empty()) return;
     const Phases::Timer timer(phases, Phases::bind);
-    const CurvePair rest = rest_pair(file, file.scene.rods[file.bound_to]);
-    try {
-      const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
-      binding.emplace(std::span(&rest, 1), mesh, bind::BindOptions{.mode = mode, .threads = threads});
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(file.mesh, error.place() + ": " + error.reason(), error.expected());
-    }
+    const bind::BindMode mode = mode_of(file, options.continuous, options.nearest);
+    binding.emplace(bind_scene(file, mesh, mode, threads));
   }
 };
 
@@ -151,7 +139,10 @@ Command run_command(CLI::App& parent) {
       ->required();
   app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
-  app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
+  app->add_flag("--continuous", options->continuous,
+                "bind to one curve-pair, too, without tears where the nearest point jumps");
+  app->add_flag("--nearest", options->nearest,
+                "bind to several curve-pairs, too, by the nearest point alone");
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");

@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "read/scene_reader.h"
+#include "read/scene_binding.h"
 #include "write/interrupt.h"
 #include "write/json_output.h"
 #include "write/progress.h"
@@ -9,7 +9,6 @@
 
 #include <tendril/base/file.h>
 #include <tendril/bind/import.h>
-#include <tendril/curve/fit.h>
 #include <tendril/dynamics/statics.h>
 
 #include <algorithm>
@@ -108,10 +107,7 @@ std::vector<std::string> write_state(const Options& options, SceneFile& file, co
   std::optional<bind::Binding> binding;
   if (!file.mesh.empty()) {
     const Phases::Timer timer(phases, Phases::bind);
-    const Rod& rod = file.scene.rods[file.bound_to];
-    const int degree = std::min(file.options.degree, static_cast<int>(rod.p.size()) - 1);
-    const Interpolator fit(degree, rod.p, file.options.parametrisation);
-    binding.emplace(CurvePair(fit.knots(), fit.solve(rod.p), fit.solve(rod.q)), mesh.points, threads);
+    binding.emplace(bind_scene(file, mesh, mode_of(file, false, false), threads));
   }
   file.outputs = {state.time};
   file.panels = 1;

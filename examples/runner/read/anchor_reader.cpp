@@ -107,6 +107,7 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
   std::vector<Anchor> out;
   for (std::size_t i = range.first; i <= range.last; ++i) {
     Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
+    if (anchor.has("until")) one.until = anchor.at("until").number();
     Motion motion;
     motion.rest = motion.about = rod.p[i];
     motion.frame = frames.frame[i];

@@ -29,7 +29,8 @@ CurveFile from_control_points(const JsonNode& file, int degree) {
                              file.at("orientation_control_points").points());
           }),
           {},
-          std::nullopt};
+          std::nullopt,
+          file.place()};
 }
 
 CurveFile from_masses(const JsonNode& file, int degree, const CurveFile* rest) {
@@ -43,7 +44,20 @@ CurveFile from_masses(const JsonNode& file, int degree, const CurveFile* rest) {
   const Interpolator through =
       as_rest ? *rest->through
               : points.locate([&] { return Interpolator(degree, p, read_parametrisation(file)); });
-  return {CurvePair(through.knots(), through.solve(p), through.solve(q)), p, through};
+  return {CurvePair(through.knots(), through.solve(p), through.solve(q)), p, through, file.place()};
+}
+
+CurveFile one_curve(const JsonNode& curve, const CurveFile* rest) {
+  const int degree = curve.has("degree") ? static_cast<int>(curve.at("degree").integer(1, kMaxDegree)) : 3;
+  if (curve.has("control_points")) return from_control_points(curve, degree);
+  if (curve.has("points")) return from_masses(curve, degree, rest);
+  curve.refuse("neither points nor control points", "the key 'points' or 'control_points'");
+}
+
+Json curve_json(const std::string& path) {
+  Json json = parse_json(read_file(path), path);
+  require_schema(json, kCurveSchema, path);
+  return json;
 }
 
 }  // namespace
@@ -81,13 +95,46 @@ std::vector<Vec3> read_orientation(const JsonNode& orientation, const std::vecto
 }
 
 CurveFile read_curve(const std::string& path, const CurveFile* rest) {
-  const Json json = parse_json(read_file(path), path);
-  require_schema(json, kCurveSchema, path);
+  const Json json = curve_json(path);
   const JsonNode file(path, json);
-  const int degree = file.has("degree") ? static_cast<int>(file.at("degree").integer(1, kMaxDegree)) : 3;
-  if (file.has("control_points")) return from_control_points(file, degree);
-  if (file.has("points")) return from_masses(file, degree, rest);
-  file.refuse("neither points nor control points", "the key 'points' or 'control_points'");
+  if (file.has("curves")) file.at("curves").refuse("a list of curve-pairs", "one curve-pair");
+  return one_curve(file, rest);
+}
+
+std::vector<CurveFile> read_curves(const std::string& path, std::span<const CurveFile> rest) {
+  const Json json = curve_json(path);
+  const JsonNode file(path, json);
+  const std::size_t count = file.has("curves") ? file.at("curves").size() : 1;
+  if (!rest.empty() && count != rest.size())
+    file.refuse(std::to_string(count) + " curve-pairs", std::to_string(rest.size()) + ", as at rest");
+  std::vector<CurveFile> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const CurveFile* at_rest = rest.empty() ? nullptr : &rest[k];
+    out.push_back(one_curve(file.has("curves") ? file.at("curves").at(k) : file, at_rest));
+  }
+  if (file.has("curves") && json.size() > 2)
+    file.refuse("more than a list of curve-pairs", "no keys but 'version' and 'curves'");
+  return out;
+}
+
+Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed) {
+  if (!posed.empty() && posed.size() != rest.size())
+    throw InvalidInput("--pose", std::to_string(posed.size()) + " files",
+                       std::to_string(rest.size()) + ", one for each --axis");
+  Axes axes;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const std::vector<CurveFile> at_rest = read_curves(rest[i]);
+    for (const CurveFile& curve : at_rest) axes.rest.push_back(curve.pair);
+    if (posed.empty()) continue;
+    const std::vector<CurveFile> in_pose = read_curves(posed[i], at_rest);
+    for (std::size_t k = 0; k < in_pose.size(); ++k) {
+      if (!(in_pose[k].pair.knots() == at_rest[k].pair.knots()))
+        throw InvalidInput(in_pose[k].place, "its knots or degree differ from those of " + at_rest[k].place,
+                           "the same");
+      axes.posed.push_back(in_pose[k].pair);
+    }
+  }
+  return axes;
 }
 
 }  // namespace tendril::runner

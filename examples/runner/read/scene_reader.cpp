@@ -176,7 +176,29 @@ void read_mesh_name(const JsonNode& file, SceneFile& out) {
     if (name.empty()) file.at("mesh").refuse("an empty path", "the path of a mesh, or null");
     out.mesh = beside(out.path, name);
   }
-  if (file.has("bound_to")) out.bound_to = read_name(file.at("bound_to"), out.names);
+}
+
+/// The curve-pairs named; or else the first and all that are joined to it, one way or another.
+void read_bound_to(const JsonNode& file, SceneFile& out) {
+  if (!file.has("bound_to")) {
+    std::vector<bool> joined(out.names.size(), false);
+    joined[0] = true;
+    for (const Joint& joint : out.scene.joints) joined[joint.child] = joined[joint.parent];
+    for (std::size_t k = 0; k < joined.size(); ++k)
+      if (joined[k]) out.bound_to.push_back(k);
+    return;
+  }
+  const JsonNode names = file.at("bound_to");
+  if (!names.is_array()) {
+    out.bound_to = {read_name(names, out.names)};
+    return;
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::size_t pair = read_name(names.at(k), out.names);
+    if (std::find(out.bound_to.begin(), out.bound_to.end(), pair) != out.bound_to.end())
+      names.at(k).refuse("named twice", "different curve-pairs");
+    out.bound_to.push_back(pair);
+  }
 }
 
 }  // namespace
@@ -192,6 +214,7 @@ SceneFile read_scene(const std::string& path) {
   read_joints(file.at("curve_pairs"), out);
   read_all_anchors(file.at("curve_pairs"), out);
   read_mesh_name(file, out);
+  read_bound_to(file, out);
   if (file.has("forces")) read_forces(file.at("forces"), out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
   read_simulation(file.at("simulation"), out);

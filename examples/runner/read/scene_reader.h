@@ -21,7 +21,7 @@ struct SceneFile {
   std::vector<std::string> anchor_places;  ///< of each anchor
   std::vector<std::string> force_places;   ///< and of each force
   std::string mesh;                        ///< path, made relative to where the program runs; empty for none
-  std::size_t bound_to = 0;                ///< curve-pair that the mesh follows
+  std::vector<std::size_t> bound_to;       ///< curve-pairs that the mesh follows, at least one
   SimulationOptions options;
   double duration = 0.0;
   std::vector<double> outputs;  ///< ascending, from time 0

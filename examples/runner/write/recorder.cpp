@@ -34,17 +34,18 @@ void append(std::string& line, const Vec3& v) {
 
 }  // namespace
 
-std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest, std::span<const double> reach,
-                                     std::span<const double> parameters) {
+std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest,
+                                     std::span<const Reach> reach) {
   std::vector<StillPoint> out;
-  if (reach.empty()) return out;
   const auto records = binding.records();
   for (std::size_t i = 0; i < records.size(); ++i) {
+    const auto& [distance, parameters] = reach[binding.pair_of(i)];
+    if (distance.empty()) continue;
     const AxialPoint& r = records[i];
     const auto after = std::upper_bound(parameters.begin() + 1, parameters.end() - 1, r.t);
     const auto k = static_cast<std::size_t>(after - parameters.begin());
     const double part = (r.t - parameters[k - 1]) / (parameters[k] - parameters[k - 1]);
-    const double limit = (1.0 - part) * reach[k - 1] + part * reach[k];
+    const double limit = (1.0 - part) * distance[k - 1] + part * distance[k];
     if (Vec3(r.u, r.v, r.w).norm() > limit) out.push_back({i, rest[i]});
   }
   return out;
@@ -64,8 +65,10 @@ Recorder::Recorder(const SceneFile& file, const System& system, const Simulation
       panels_(spread(file.outputs.size(), static_cast<std::size_t>(file.panels))) {
   if (binding == nullptr) return;
   follower_.emplace(*binding, file.bound_to, mesh_.points, options_.threads);
-  still_ =
-      still_points(*binding, mesh_.points, file.reach[file.bound_to], simulation.parameters(file.bound_to));
+  std::vector<Reach> reach;
+  for (const std::size_t pair : file.bound_to)
+    reach.push_back({file.reach[pair], simulation.parameters(pair)});
+  still_ = still_points(*binding, mesh_.points, reach);
 }
 
 void Recorder::follow(double time, std::span<const CurvePair> pairs) {

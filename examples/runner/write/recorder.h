@@ -31,10 +31,14 @@ struct StillPoint {
   Vec3 position;
 };
 
-/// The points of the mesh whose distance from the curve at rest is beyond the reach given at the nodes.
-/// \param parameters  of the nodes on the curve, ascending
-std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest, std::span<const double> reach,
-                                     std::span<const double> parameters);
+/// How far a curve-pair reaches at its nodes, whose parameters on the curve ascend; empty for everywhere.
+struct Reach {
+  std::span<const double> distance, parameters;
+};
+
+/// The points of the mesh whose distance from the curve they are nearest to is beyond its reach there.
+/// \param reach  of each of the binding's curve-pairs
+std::vector<StillPoint> still_points(const bind::Binding& binding, Points rest, std::span<const Reach> reach);
 
 /// Follows a run at its outputs: brings the mesh up to date, writes it as a frame, notes the trajectory, and
 /// keeps the moments that the pictures show. Every file it writes is whole.

@@ -2,6 +2,7 @@
 
 #include "draw/drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -28,7 +29,8 @@ class Painter {
     for (std::size_t r = 0; r < moment.pairs.size(); ++r) {
       const double thin = kThinnest * camera_.size;
       const std::vector<Strand> axis = axis_strands(moment.pairs[r], moment.masses[r], thin);
-      if (drawing.mesh == nullptr || r != file_.bound_to) {
+      const bool hidden = std::find(file_.bound_to.begin(), file_.bound_to.end(), r) != file_.bound_to.end();
+      if (drawing.mesh == nullptr || !hidden) {
         drawing.solid.push_back(
             rod_strand(moment.pairs[r], simulation_.parameters(r), file_.scene.rods[r].width, thin));
       }

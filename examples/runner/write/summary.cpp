@@ -15,6 +15,9 @@ OrderedJson to_json(const bind::BindReport& report, std::size_t points, std::siz
           {"rest_error", report.rest_error},
           {"largest_gap", report.largest_gap},
           {"beyond_ends", report.beyond_ends},
+          {"ambiguous", report.ambiguous.size()},
+          {"gated", report.gated.size()},
+          {"places", report.places},
           {"past_focus", report.past_focus.size()},
           {"degenerate", report.degenerate.size()}};
 }

@@ -110,10 +110,11 @@ std::string read_file(const std::string& path) {
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) throw FileError(path, "not a regular file");
 
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  // One byte more, so that the end shows without growing.
+  std::string bytes(static_cast<std::size_t>(status.st_size) + 1, '\0');
   std::size_t filled = 0;
   for (;;) {
-    if (filled == bytes.size()) bytes.resize(bytes.size() + 4096);  // also finds a file that grew meanwhile
+    if (filled == bytes.size()) bytes.resize(bytes.size() + 4096);  // the file grew meanwhile
     const ssize_t n = ::read(fd.get(), bytes.data() + filled, bytes.size() - filled);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(path, errno);

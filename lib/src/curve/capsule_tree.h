@@ -2,7 +2,9 @@
 
 #include <tendril/base/types.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace tendril {
@@ -15,10 +17,12 @@ struct Capsule {
   double radius;
 
   /// Distance of p to the capsule, negative inside. Rounding: below 1e-14 (|p - start| + |axis|).
-  double distance(const Vec3& p) const {
+  double distance(const Vec3& p) const { return std::sqrt(square(p)) - radius; }
+  /// Of the distance to the segment.
+  double square(const Vec3& p) const {
     const Vec3 q = p - start;
     const double s = q.dot(axis) * inverse_length2;
-    return (q - (s < 0.0 ? 0.0 : s > 1.0 ? 1.0 : s) * axis).norm() - radius;
+    return (q - std::min(1.0, std::max(0.0, s)) * axis).squaredNorm();
   }
 };
 
@@ -41,19 +45,26 @@ class CapsuleTree {
     std::size_t top = 0;
     stack[top++] = {0, -1.0};
     while (top > 0) {
-      auto [index, distance] = stack[--top];
-      if (distance > bound()) continue;
+      const Entry entry = stack[--top];
+      if (entry.distance > bound()) continue;
+      std::size_t index = entry.node;
       while (nodes_[index].right != 0) {
         const std::size_t left = index + 1, right = nodes_[index].right;
-        const double to_left = nodes_[left].capsule.distance(p);
-        const double to_right = nodes_[right].capsule.distance(p);
-        const bool left_first = to_left <= to_right;
-        stack[top++] = left_first ? Entry{right, to_right} : Entry{left, to_left};
-        index = left_first ? left : right;
-        distance = left_first ? to_left : to_right;
-        if (distance > bound()) break;
+        const Capsule &a = nodes_[left].capsule, &b = nodes_[right].capsule;
+        const double to_a = a.square(p), to_b = b.square(p), most = bound();
+        const bool near_a = to_a <= square(most + a.radius), near_b = to_b <= square(most + b.radius);
+        index = near_a ? left : right;
+        if (near_a && near_b) {
+          // Roots only where both must be visited: mostly one is too far.
+          const double d_a = std::sqrt(to_a) - a.radius, d_b = std::sqrt(to_b) - b.radius;
+          stack[top++] = d_a <= d_b ? Entry{right, d_b} : Entry{left, d_a};
+          index = d_a <= d_b ? left : right;
+        } else if (!near_a && !near_b) {
+          index = nodes_.size();
+          break;
+        }
       }
-      if (distance <= bound()) visit(nodes_[index].piece);
+      if (index < nodes_.size()) visit(nodes_[index].piece);
     }
   }
 
@@ -63,6 +74,7 @@ class CapsuleTree {
     std::size_t right;  // index of the right child; 0 marks a leaf
     std::size_t piece;  // of a leaf
   };
+  static double square(double a) { return a * a; }
   void build(Points points, std::size_t per_piece, std::size_t first);
 
   std::vector<Node> nodes_;

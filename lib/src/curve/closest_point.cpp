@@ -29,9 +29,11 @@ struct CurveProjector::Data {
   virtual ~Data() = default;
 
   struct Found {
-    double t, distance, gap;
+    double t;
+    double least;  ///< proven: no distance is smaller
   };
-  virtual Found find(const Vec3& p, const Bounds& bounds, double upper) const = 0;
+  /// \param hint  a parameter, NaN for none: its sub-piece is examined first
+  virtual Found find(const Vec3& p, const Bounds& bounds, double hint) const = 0;
   /// Local minima up to the distance `cut`, in the order of t.
   virtual std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const = 0;
 
@@ -95,11 +97,24 @@ struct DataOfDegree final : CurveProjector::Data {
         fine(search::fine_pieces<P>(curve)),
         tree(all_points<P>(pieces), P + 1) {}
 
-  Found find(const Vec3& p, const Bounds& bounds, double upper) const override {
-    search::Search<P> search(curve, p, bounds, upper);
+  Found find(const Vec3& p, const Bounds& bounds, double hint) const override {
+    search::Search<P> search(curve, p, bounds);
+    const std::size_t first = std::isnan(hint) ? pieces.size() : piece_at(hint);
+    if (first < pieces.size()) search.examine(pieces[first]);
     tree.descend(
-        p, [&] { return search.cut(); }, [&](std::size_t piece) { search.examine(pieces[piece]); });
-    return {search.t(), search.distance(), search.gap()};
+        p, [&] { return search.cut(); },
+        [&](std::size_t piece) {
+          if (piece != first) search.examine(pieces[piece]);
+        });
+    search.finish();
+    return {search.t(), search.least()};
+  }
+
+  std::size_t piece_at(double t) const {
+    const auto after =
+        std::upper_bound(pieces.begin(), pieces.end(), t,
+                         [](double at, const search::Piece<P>& piece) { return at < piece.begin; });
+    return after == pieces.begin() ? 0 : static_cast<std::size_t>(after - pieces.begin()) - 1;
   }
 
   std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const override {
@@ -180,13 +195,11 @@ Projection describe(const CurveProjector::Data& data, const Vec3& p,
   const double t = found.t;
   const int span = knots.span(t);
   const Basis basis = knots.basis_in_span(t, span, 2);
-  Projection result{t,
-                    combine(basis, curve.degree(), curve.control_points()),
-                    found.distance,
-                    ProjectionKind::interior,
-                    0.0,
-                    found.gap};
+  Projection result{
+      t, combine(basis, curve.degree(), curve.control_points()), 0.0, ProjectionKind::interior, 0.0, 0.0};
   const Vec3 offset = result.point - p;
+  result.distance = offset.norm();
+  result.gap = std::max(0.0, result.distance - std::max(0.0, found.least));
   const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
   const bool rest = at_rest(data, d1, span);
   if (!rest) {
@@ -258,13 +271,13 @@ std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, 
   // Where the distance is flat to rounding the sweep places its minimum better.
   const bool same = !known || std::abs(minima[first].t - nearest.t) <= 1e-7 * domain;
   const Projection front =
-      same ? nearest : describe(data, p, {minima[first].t, minima[first].distance, minima[first].gap});
+      same ? nearest : describe(data, p, {minima[first].t, minima[first].distance - minima[first].gap});
   std::vector<LocalMinimum> result;
   result.push_back({front, strength(data.curve, front, p), !known || minima[first].cluster,
                     known ? minima[first].multiplicity : 1});
   for (std::size_t i = 0; i < minima.size(); ++i) {
     if (i == first) continue;
-    const Projection at = describe(data, p, {minima[i].t, minima[i].distance, minima[i].gap});
+    const Projection at = describe(data, p, {minima[i].t, minima[i].distance - minima[i].gap});
     result.push_back({at, strength(data.curve, at, p), minima[i].cluster, minima[i].multiplicity});
   }
   return result;
@@ -281,13 +294,13 @@ CurveProjector::CurveProjector(const BSpline& curve) : data_(prepare(curve)) {}
 
 Projection CurveProjector::nearest(const Vec3& p) const {
   check(p);
-  return describe(*data_, p, data_->find(p, data_->bounds(p), std::numeric_limits<double>::infinity()));
+  return describe(*data_, p, data_->find(p, data_->bounds(p), std::numeric_limits<double>::quiet_NaN()));
 }
 
 Projection CurveProjector::nearest(const Vec3& p, double hint) const {
   check(p);
   if (std::isnan(hint)) throw InvalidInput("CurveProjector: hint", "not a number", "a parameter");
-  return describe(*data_, p, data_->find(p, data_->bounds(p), (data_->curve.value(hint) - p).norm()));
+  return describe(*data_, p, data_->find(p, data_->bounds(p), hint));
 }
 
 std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band) const {

@@ -175,7 +175,7 @@ Root stationary(const Interval<P>& interval) {
     const double step = curvature > 0.0 ? -root.slope / curvature : 2.0;
     if (std::abs(step) <= 1e-15) break;
     if (std::abs(step) < 1e-3 &&
-        std::abs(root.slope) <= kUnit * interval.reach * (root.at.d1.norm() + root.at.c.norm()))
+        std::abs(root.slope) <= 4.0 * kUnit * interval.reach * (root.at.d1.norm() + root.at.c.norm()))
       break;
     // Out of the bracket, or not halving the step: bisect.
     double next = s + step;
@@ -192,15 +192,22 @@ Root stationary(const Interval<P>& interval) {
 template <int P>
 class Search {
  public:
-  Search(const BSpline& curve, const Vec3& p, const Bounds& bounds, double upper)
-      : curve_(curve), p_(p), bounds_(bounds) {
-    lower_cut(upper);
-  }
+  Search(const BSpline& curve, const Vec3& p, const Bounds& bounds) : curve_(curve), p_(p), bounds_(bounds) {}
 
   double cut() const { return cut_; }
+  /// Compares the candidates left; what follows is asked for afterwards.
+  void finish() {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < waiting_; ++i)
+      if (candidates_[i].local <= cut_) candidates_[left++] = candidates_[i];
+    waiting_ = left;
+    if (left == 1 && std::isinf(distance_))
+      t_ = candidates_[0].t;  // nothing to compare with
+    else
+      compare();
+  }
   double t() const { return t_; }
-  double distance() const { return distance_; }
-  double gap() const { return std::max(0.0, distance_ - std::max(0.0, proven_)); }
+  double least() const { return proven_; }
 
   void examine(const Piece<P>& piece) {
     // Right halves wait; depth first leaves at most one per level.
@@ -239,8 +246,8 @@ class Search {
       return take_root(piece, interval, convexity);
     const double least = std::sqrt(std::max(0.0, interval.least));
     if (std::sqrt(interval.most) - least > bounds_.flat && interval.depth < kMaxDepth) return false;
-    candidate(piece.parameter(interval.low));
-    candidate(piece.parameter(interval.high));
+    evaluate(piece.parameter(interval.low));
+    evaluate(piece.parameter(interval.high));
     prove(std::sqrt(std::max(0.0, interval.least - interval.error)));
     return true;
   }
@@ -266,9 +273,21 @@ class Search {
     return true;
   }
 
-  /// \param local  the distance on the local curve: one beyond the cut needs no evaluation
-  void candidate(double t, double local = 0.0) {
+  /// \param local  the distance on the local curve: one beyond the cut needs no evaluation, and until the end
+  /// of the search the cut may still fall
+  void candidate(double t, double local) {
     if (local > cut_) return;
+    if (waiting_ == candidates_.size()) compare();
+    candidates_[waiting_++] = {t, local};
+    lower_cut(local);
+  }
+
+  void compare() {
+    for (std::size_t i = 0; i < waiting_; ++i) evaluate(candidates_[i].t);
+    waiting_ = 0;
+  }
+
+  void evaluate(double t) {
     const double d = (curve_.value(t) - p_).norm();
     if (d < distance_ || (d == distance_ && t < t_)) {
       distance_ = d;
@@ -287,6 +306,11 @@ class Search {
   double t_ = std::numeric_limits<double>::infinity();
   double proven_ = std::numeric_limits<double>::infinity();
   double cut_ = std::numeric_limits<double>::infinity();
+  struct Candidate {
+    double t, local;
+  };
+  std::array<Candidate, 8> candidates_;
+  std::size_t waiting_ = 0;
 };
 
 }  // namespace tendril::search

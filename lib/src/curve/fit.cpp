@@ -129,4 +129,18 @@ std::vector<Vec3> Interpolator::solve(Points points) const {
   return u;
 }
 
+std::vector<Vec3> Interpolator::solve_transposed(Points forces) const {
+  const std::size_t n = parameters_.size();
+  if (forces.size() != n)
+    throw InvalidInput("forces", std::to_string(forces.size()) + " of them", std::to_string(n));
+  std::vector<Vec3> f(forces.begin(), forces.end());
+  for (std::size_t row = 0; row < n; ++row) {
+    for (std::size_t k = row - std::min(row, half()); k < row; ++k) f[row] -= at(k, row) * f[k];
+    f[row] /= at(row, row);
+  }
+  for (std::size_t row = n; row-- > 0;)
+    for (std::size_t k = row + 1; k < std::min(n, row + half() + 1); ++k) f[row] -= at(k, row) * f[k];
+  return f;
+}
+
 }  // namespace tendril

@@ -45,15 +45,18 @@ void check_multiplicity(std::span<const double> knots, int degree) {
 
 using Row = std::array<double, kMaxDegree + 1>;
 
-std::size_t idx(int i) {
+#define TENDRIL_INLINE inline __attribute__((always_inline))
+
+TENDRIL_INLINE std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Values of degree d from those of degree d - 1 (Cox, de Boor). `knot` points at the span's first knot.
-Row raise_value(const Row& lower, const double* knot, int d, double t) {
+/// Values of degree D from those of degree D - 1 (Cox, de Boor). `knot` points at the span's first knot.
+template <int D>
+TENDRIL_INLINE Row raise_value(const Row& lower, const double* knot, double t) {
   Row row{};
-  for (int j = 0; j < d; ++j) {
-    const double left = knot[j + 1 - d];
+  for (int j = 0; j < D; ++j) {
+    const double left = knot[j + 1 - D];
     const double right = knot[j + 1];
     const double share = lower[idx(j)] / (right - left);
     row[idx(j)] += (right - t) * share;
@@ -62,16 +65,51 @@ Row raise_value(const Row& lower, const double* knot, int d, double t) {
   return row;
 }
 
-/// One differentiation: N'_{i,d} = d (N_{i,d-1} / (k_{i+d} - k_i) - N_{i+1,d-1} / (k_{i+d+1} - k_{i+1})),
+/// One differentiation: N'_{i,D} = D (N_{i,D-1} / (k_{i+D} - k_i) - N_{i+1,D-1} / (k_{i+D+1} - k_{i+1})),
 /// applied to any linear combination of derivatives of the lower row.
-Row raise_derivative(const Row& lower, const double* knot, int d) {
+template <int D>
+TENDRIL_INLINE Row raise_derivative(const Row& lower, const double* knot) {
   Row row{};
-  for (int j = 0; j < d; ++j) {
-    const double share = d * lower[idx(j)] / (knot[j + 1] - knot[j + 1 - d]);
+  for (int j = 0; j < D; ++j) {
+    const double share = D * lower[idx(j)] / (knot[j + 1] - knot[j + 1 - D]);
     row[idx(j)] -= share;
     row[idx(j + 1)] += share;
   }
   return row;
+}
+
+using Rows = std::array<Row, kMaxDegree + 1>;
+
+/// rows[d] for d = 1 to P: the d + 1 functions of degree d that live in the span. Unrolled for each degree.
+template <int P>
+TENDRIL_INLINE void fill_values(Rows& rows, const double* knot, double t) {
+  if constexpr (P > 0) {
+    fill_values<P - 1>(rows, knot, t);
+    rows[P] = raise_value<P>(rows[P - 1], knot, t);
+  }
+}
+
+/// A row of degree D raised to degree P by differentiations.
+template <int P, int D>
+TENDRIL_INLINE Row differentiate(const Row& row, const double* knot) {
+  if constexpr (D == P)
+    return row;
+  else
+    return differentiate<P, D + 1>(raise_derivative<D + 1>(row, knot), knot);
+}
+
+template <int P>
+void fill(const double* knot, double t, int derivatives, Basis& basis) {
+  Rows rows;
+  rows[0] = Row{1.0};
+  fill_values<P>(rows, knot, t);
+  basis.value[0] = rows[P];
+  if constexpr (P >= 1)
+    if (derivatives >= 1) basis.value[1] = differentiate<P, P - 1>(rows[P - 1], knot);
+  if constexpr (P >= 2)
+    if (derivatives >= 2) basis.value[2] = differentiate<P, P - 2>(rows[P - 2], knot);
+  if constexpr (P >= 3)
+    if (derivatives >= 3) basis.value[3] = differentiate<P, P - 3>(rows[P - 3], knot);
 }
 
 }  // namespace
@@ -118,15 +156,22 @@ Basis KnotVector::basis_in_span(double t, int span, int derivatives) const {
   assert(derivatives >= 0 && derivatives <= kMaxDerivative);
   Basis result;
   result.first = span - degree_;
-  // rows[d] holds the d + 1 functions of degree d that live in the span; function j is N_{span - d + j, d}.
-  std::array<Row, kMaxDegree + 1> rows{};
-  rows[0][0] = 1.0;
-  for (int d = 1; d <= degree_; ++d) rows[idx(d)] = raise_value(rows[idx(d - 1)], knots_.data() + span, d, t);
-  result.value[0] = rows[idx(degree_)];
-  for (int order = 1; order <= std::min(derivatives, degree_); ++order) {
-    Row row = rows[idx(degree_ - order)];
-    for (int d = degree_ - order + 1; d <= degree_; ++d) row = raise_derivative(row, knots_.data() + span, d);
-    result.value[idx(order)] = row;
+  const double* knot = knots_.data() + span;
+  switch (degree_) {
+    case 1:
+      fill<1>(knot, t, derivatives, result);
+      break;
+    case 2:
+      fill<2>(knot, t, derivatives, result);
+      break;
+    case 3:
+      fill<3>(knot, t, derivatives, result);
+      break;
+    case 4:
+      fill<4>(knot, t, derivatives, result);
+      break;
+    default:
+      fill<5>(knot, t, derivatives, result);
   }
   return result;
 }

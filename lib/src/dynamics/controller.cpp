@@ -52,6 +52,21 @@ Controller::Controller(const System& system, State start, const SimulationOption
   report_.work = -state_.y[state_.y.size() - 1];  // counted from here
 }
 
+Controller::Controller(const System& system, State state, Controller& before)
+    : Controller(system, std::move(state), before.options_) {
+  before.check_energy();
+  const double released = now_.total() - before.now_.total();
+  const Report mine = std::exchange(report_, before.report_);
+  report_.method = mine.method;
+  report_.guard_step = mine.guard_step;
+  report_.work += released;
+  other_evaluations_ += before.evaluations();
+  start_ = before.start_;
+  h_ = before.h_;
+  speed_ = std::max(speed_, before.speed_);
+  energy_scale_ = std::max(energy_scale_, before.energy_scale_);
+}
+
 void Controller::make_steppers() {
   std::unique_ptr<Stepper> stepper =
       options_.own_stepper ? options_.own_stepper(system_) : make_stepper(options_.method, system_);
@@ -310,6 +325,10 @@ void Controller::check_energy() {
 
 void Controller::cancel() {
   if (!ended_ && state_.time < until_) stop(Stop::cancelled, sentence("cancelled at time ", state_.time));
+}
+
+void Controller::refuse_release(double time) {
+  stop(Stop::not_evaluable, sentence("at time ", time, " what lets go leaves a node without a frame"));
 }
 
 void Controller::stop(Stop why, std::string reason) {

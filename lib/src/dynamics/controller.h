@@ -11,6 +11,9 @@ namespace tendril {
 class Controller {
  public:
   Controller(const System& system, State start, const SimulationOptions& options);
+  /// Goes on where another stopped, in the same scene laid out anew: its steppers begin anew, its book is
+  /// kept. \param state  the other's, rebased in the new system
+  Controller(const System& system, State state, Controller& before);
 
   void begin(double until);
   bool running() const { return !ended_ && state_.time < until_; }
@@ -18,6 +21,7 @@ class Controller {
   /// One accepted step, ending at `target` if it reaches that far. False when the run has to stop.
   bool step_towards(double target);
   void cancel();
+  void refuse_release(double time);
 
   const State& state() const { return state_; }
   System::Workspace& workspace() { return *work_; }

@@ -12,7 +12,8 @@ bool all_finite(const Eigen::VectorXd& values);
 /// What kinematics are filled: places and frames; what the springs need, with rates; or all, with rates.
 enum class Motion { places, springs, all };
 
-/// Fills the workspace's kinematics from y.
+/// Fills the workspace's kinematics from y. For springs alone, numbers in y that are not finite may pass:
+/// they make the forces so.
 Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, System::Workspace& work);
 

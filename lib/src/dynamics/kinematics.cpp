@@ -159,6 +159,7 @@ void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspa
   take_apart(y.data() + model.v_begin(), model.nodes, work.v);
   for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
     const Anchor& anchor = model.scene.anchors[a];
+    if (!model.acts(anchor)) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     work.pose[a] = anchor.motion
                        ? anchor.motion(t)
@@ -191,7 +192,7 @@ void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
 void take_held_frames(const Model& model, Workspace& work) {
   for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
     const Anchor& anchor = model.scene.anchors[a];
-    if (!anchor.holds_frame) continue;
+    if (!anchor.holds_frame || !model.acts(anchor)) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     const AnchorPose& pose = work.pose[a];
     work.frame.set(i, pose.frame);
@@ -272,13 +273,13 @@ System::Workspace::Workspace(const Model& model) : pose(model.scene.anchors.size
                         &g_spin, &g_length, &twist_torque, &energy, &heat})
     *numbers = Column(n);
   if (!model.loaded) return;
-  for (auto* vectors : {&seen_p, &seen_v, &seen_t, &load, &torque}) vectors->assign(n, Vec3::Zero());
+  for (auto* vectors : {&seen_p, &seen_v, &seen_t, &seen_m, &load, &torque}) vectors->assign(n, Vec3::Zero());
   seen_spin.assign(n, 0.0);
 }
 
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, Workspace& work) {
-  if (!all_finite(y)) return {Outcome::not_finite, 0};
+  if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
   place_nodes(model, t, y, work);
   const bool bad = measure(0, model.nodes, work);
   if (what != Motion::places) measure_rates(0, model.nodes, work);

@@ -79,7 +79,7 @@ double twist_angle(const Frame& before, const Frame& after) {
   return std::atan2(carried.cross(after.y).dot(after.z), carried.dot(after.y));
 }
 
-System::Model::Model(Scene description) : scene(std::move(description)) {
+System::Model::Model(Scene description, double since) : scene(std::move(description)), from(since) {
   if (scene.rods.empty()) throw InvalidInput("rods", "none", "at least one");
   for (std::size_t r = 0; r < scene.rods.size(); ++r) {
     check_rod(scene.rods[r], r);
@@ -101,7 +101,7 @@ void System::Model::flatten(const Rod& rod) {
   const NodeRange range{nodes, rod.p.size()};
   rods.push_back(range);
   nodes += range.count;
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
   append(rest_p, rod.p);
   append(mass, rod.mass);
   append(inertia, rod.inertia);
@@ -157,6 +157,8 @@ void System::Model::place_anchors() {
     if (slot >= 0)
       throw InvalidInput(member("anchors", a, "node"), "anchored twice", "at most one anchor a node");
     slot = static_cast<int>(a);
+    if (std::isnan(anchor.until)) throw InvalidInput(member("anchors", a, "until"), "not a number", "a time");
+    if (!acts(anchor)) continue;
     held_position[range.first + anchor.node] = anchor.holds_position;
     held_frame[range.first + anchor.node] = anchor.holds_frame;
   }

@@ -10,9 +10,10 @@ namespace tendril {
 /// A scene on flat arrays. Arrays per edge have an entry per node; that of a rod's last node is not used, so
 /// that edge i always joins the nodes i and i + 1.
 struct System::Model {
-  explicit Model(Scene description);
+  Model(Scene description, double since);
 
   Scene scene;
+  double from;  ///< anchors that let go by then hold nothing
   std::vector<NodeRange> rods;
   std::vector<std::size_t> order;  ///< of the rods, parents before their children
   std::vector<std::size_t> seed;  ///< per rod, the node that its directors follow where it has no twist state
@@ -89,6 +90,7 @@ struct System::Model {
   bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
   bool has_before(std::size_t node) const { return begins[node] == 0; }
   bool has_after(std::size_t node) const { return ends[node] == 0; }
+  bool acts(const Anchor& anchor) const { return anchor.until > from; }
   const Ride* ride_of(std::size_t rod) const {
     return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }

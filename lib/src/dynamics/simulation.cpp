@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controller.h"
 #include "words.h"
@@ -82,27 +83,70 @@ const char* to_string(Stop stop) {
 }
 
 struct Simulation::Implementation {
-  Implementation(const System& s, State start, const SimulationOptions& o)
-      : system(s), controller(s, std::move(start), o), fits(fits_of(s, o)) {
-    const std::vector<Vec3> q = system.orientation_masses(controller.state(), controller.workspace());
+  Implementation(const System& s, State start, const SimulationOptions& o) : system(&s), fits(fits_of(s, o)) {
+    for (const Anchor& anchor : s.scene().anchors)
+      if (std::isfinite(anchor.until)) releases.push_back(anchor.until);
+    std::sort(releases.begin(), releases.end());
+    const bool released = !releases.empty() && releases.front() <= start.time;
+    if (released) lay_out(start.time);
+    controller = std::make_unique<Controller>(*system, std::move(start), o);
+    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r)
       pairs.emplace_back(fits[r].knots(), primary(r), orientation(q, r));
   }
 
   std::vector<Vec3> primary(std::size_t r) const {
-    const NodeRange& range = system.rods()[r];
+    const NodeRange& range = system->rods()[r];
     std::vector<Vec3> p;
     for (std::size_t i = 0; i < range.count; ++i)
-      p.push_back(controller.state().y.segment<3>(3 * static_cast<Eigen::Index>(range.first + i)));
+      p.push_back(controller->state().y.segment<3>(3 * static_cast<Eigen::Index>(range.first + i)));
     return fits[r].solve(p);
   }
   std::vector<Vec3> orientation(const std::vector<Vec3>& q, std::size_t r) const {
-    const NodeRange& range = system.rods()[r];
+    const NodeRange& range = system->rods()[r];
     return fits[r].solve(Points(q).subspan(range.first, range.count));
   }
 
+  void lay_out(double from) {
+    laid_out.push_back(std::make_unique<const System>(system->scene(), from));
+    system = laid_out.back().get();
+  }
+
+  double next_release() const {
+    const auto next = std::upper_bound(releases.begin(), releases.end(), controller->state().time);
+    return next == releases.end() ? std::numeric_limits<double>::infinity() : *next;
+  }
+
+  /// Frees what lets go at the present time. False when the freed rods have no frames there.
+  bool release(double until) {
+    State state = controller->state();
+    // Of a rod without twist state only one node's director is known, and another one may be asked for.
+    const std::vector<Frame> frames = system->frames(state, controller->workspace());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      state.tangent[i] = frames[i].z;
+      state.director[i] = frames[i].y;
+    }
+    lay_out(state.time);
+    if (!system->rebase(state, *system->make_workspace()).ok()) return false;
+    controller = std::make_unique<Controller>(*system, std::move(state), *controller);
+    laid_out.erase(laid_out.begin(), laid_out.end() - 1);
+    controller->begin(until);
+    return true;
+  }
+
+  /// One accepted step; what lets go at its end is freed. False when the run has to stop.
+  bool step_towards(double target, double until) {
+    const double next = next_release();
+    if (!controller->step_towards(std::min(target, next))) return false;
+    if (controller->state().time < next) return true;
+    const double time = controller->state().time;
+    if (release(until)) return true;
+    controller->refuse_release(time);
+    return false;
+  }
+
   void fit() {
-    const std::vector<Vec3> q = system.orientation_masses(controller.state(), controller.workspace());
+    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r) pairs[r].set_control_points(primary(r), orientation(q, r));
   }
 
@@ -112,12 +156,14 @@ struct Simulation::Implementation {
       if (its_when != when) continue;
       if (!fitted) fit();
       fitted = true;
-      follower->follow(controller.state().time, pairs);
+      follower->follow(controller->state().time, pairs);
     }
   }
 
-  const System& system;
-  Controller controller;
+  std::vector<std::unique_ptr<const System>> laid_out;  ///< the scene after what has let go
+  const System* system;
+  std::unique_ptr<Controller> controller;
+  std::vector<double> releases;  ///< ascending
   std::vector<Interpolator> fits;
   std::vector<CurvePair> pairs;
   std::vector<std::pair<Follower*, When>> followers;
@@ -140,8 +186,7 @@ void Simulation::on_progress(std::function<bool(double time)> progress) {
 }
 
 Report Simulation::run(double until, std::span<const double> outputs) {
-  Controller& controller = self_->controller;
-  const double from = controller.state().time;
+  const double from = self_->controller->state().time;
   if (!(until >= from) || !std::isfinite(until))
     throw InvalidInput("until", std::to_string(until), "a time not before " + std::to_string(from));
   for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -149,27 +194,27 @@ Report Simulation::run(double until, std::span<const double> outputs) {
       throw InvalidInput("outputs[" + std::to_string(i) + "]", std::to_string(outputs[i]),
                          "ascending times within the run");
 
-  controller.begin(until);
+  self_->controller->begin(until);
   std::size_t next = 0;
   const auto tell_outputs = [&] {
     bool due = false;
-    for (; next < outputs.size() && outputs[next] <= controller.state().time; ++next) due = true;
+    for (; next < outputs.size() && outputs[next] <= self_->controller->state().time; ++next) due = true;
     if (due) self_->tell(When::output);
   };
   tell_outputs();
-  while (controller.running()) {
+  while (self_->controller->running()) {
     const double target = next < outputs.size() ? outputs[next] : until;
-    if (!controller.step_towards(target)) break;
+    if (!self_->step_towards(target, until)) break;
     self_->tell(When::accepted_step);
     tell_outputs();
-    if (self_->progress && !self_->progress(controller.state().time)) controller.cancel();
+    if (self_->progress && !self_->progress(self_->controller->state().time)) self_->controller->cancel();
   }
   self_->fit();
-  return controller.report();
+  return self_->controller->report();
 }
 
 const State& Simulation::state() const {
-  return self_->controller.state();
+  return self_->controller->state();
 }
 
 std::span<const CurvePair> Simulation::pairs() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tendril {
 namespace {
@@ -33,9 +34,12 @@ double growth(double w, double alpha, double beta, double h) {
 
 bool allowed(double frequency, double alpha, double beta, const GuardLimits& limits, double h) {
   const double limit = std::min(limits.per_step, limits.whole * h / std::max(limits.duration, h));
-  for (int half_octave = 0; half_octave < 24; ++half_octave)
-    if (growth(frequency * std::exp2(-0.5 * half_octave), alpha, beta, h) > limit) return false;
-  return true;
+  // Slower motions than those grow by less than rounding.
+  constexpr double kSlow = 0.01;
+  for (double w = frequency;; w *= std::numbers::sqrt2 / 2) {
+    if (growth(w, alpha, beta, h) > limit) return false;
+    if (w * h < kSlow) return true;
+  }
 }
 
 }  // namespace

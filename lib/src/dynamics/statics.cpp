@@ -39,6 +39,19 @@ struct Way {
   double load, time, by_load, by_time;
 };
 
+/// How a state stands whose unbalanced forces may do so much.
+Stability stand(const System& system, const State& state, double load, double unbalanced) {
+  StaticProblem problem(system);
+  Poise at;
+  at.state = state;
+  at.load = load;
+  Eigen::SparseMatrix<double> k;
+  if (!problem.settle(at).ok() || !problem.tangent(at, k).ok()) return {};
+  StaticTangent tangent(problem.coordinates().weight());
+  tangent.set(k, problem.conservative());
+  return analyse(problem.coordinates(), tangent, unbalanced);
+}
+
 class Search {
  public:
   Search(const System& system, const StaticsOptions& options)
@@ -57,6 +70,8 @@ class Search {
   void stop(StaticNewton::Outcome outcome, const std::string& why);
   void report();
 
+  double unbalanced() const;
+
   const System& system_;
   const StaticsOptions& options_;
   StaticProblem problem_;
@@ -65,6 +80,11 @@ class Search {
   int unstable_ = 0;  ///< directions where the search stands
   Equilibrium out_;
 };
+
+double Search::unbalanced() const {
+  return static_cast<double>(problem_.coordinates().size()) * problem_.largest(at_.residual) *
+         problem_.coordinates().length();
+}
 
 void Search::stop(Balance balance, const std::string& why) {
   out_.balance = balance;
@@ -184,7 +204,7 @@ void Search::report() {
   out_.force_scale = problem_.force_scale(at_);
   out_.residual = out_.force_scale > 0.0 ? problem_.largest(at_.residual) / out_.force_scale : 0.0;
   out_.support = problem_.support(at_);
-  out_.stability = stability_of(system_, at_.state, at_.load);
+  out_.stability = stand(system_, at_.state, at_.load, unbalanced());
   out_.iterations = newton_.iterations;
   out_.factorisations = newton_.tangent().factorisations;
   out_.left = newton_.left;
@@ -245,16 +265,7 @@ Equilibrium find_equilibrium(const System& system, State start, const StaticsOpt
 }
 
 Stability stability_of(const System& system, const State& state, double load) {
-  StaticProblem problem(system);
-  Poise at;
-  at.state = state;
-  at.load = load;
-  Eigen::SparseMatrix<double> k;
-  if (!problem.settle(at).ok() || !problem.tangent(at, k).ok()) return {};
-  StaticTangent tangent(problem.coordinates().weight());
-  tangent.set(k, problem.conservative());
-  Stability out = analyse(problem.coordinates(), tangent);
-  return out;
+  return stand(system, state, load, 0.0);
 }
 
 }  // namespace tendril

@@ -29,15 +29,16 @@ StaticLoads::StaticLoads(const System& system, const StaticCoordinates& coordina
   }
   const std::size_t n = system.node_count();
   spin_.assign(n, 0.0);
-  for (auto* vectors : {&p_, &v_, &t_, &force_, &torque_}) vectors->assign(n, Vec3::Zero());
+  for (auto* vectors : {&p_, &v_, &t_, &m_, &force_, &torque_}) vectors->assign(n, Vec3::Zero());
 }
 
 StateView StaticLoads::look(const State& state, const std::vector<Frame>& frames) {
   for (std::size_t i = 0; i < p_.size(); ++i) {
     p_[i] = at(state.y, i);
     t_[i] = frames[i].z;
+    m_[i] = frames[i].y;
   }
-  return {state.time, p_, v_, t_, spin_, mass_, width_, system_.rods()};
+  return {state.time, p_, v_, t_, spin_, mass_, width_, system_.rods(), m_};
 }
 
 Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& potential,

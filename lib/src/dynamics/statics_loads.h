@@ -45,7 +45,7 @@ class StaticLoads {
   bool conservative_ = true, depends_on_state_ = false;
   double sum_ = 0.0;
   std::vector<double> mass_, width_, spin_;
-  std::vector<Vec3> p_, v_, t_, force_, torque_;
+  std::vector<Vec3> p_, v_, t_, m_, force_, torque_;
   std::vector<std::vector<std::size_t>> near_;     ///< per node, the nodes it couples with, itself too
   std::vector<std::vector<std::size_t>> colours_;  ///< nodes that feel nothing in common
 };

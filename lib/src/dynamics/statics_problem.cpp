@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model.h"
+
 namespace tendril {
 
 StaticProblem::StaticProblem(const System& system)
@@ -26,7 +28,7 @@ StaticProblem::StaticProblem(const System& system)
     };
   }
   if (!any) return;
-  turning_.emplace(std::move(turning));
+  turning_.emplace(std::move(turning), system.model().from);
   turning_work_ = turning_->make_workspace();
 }
 

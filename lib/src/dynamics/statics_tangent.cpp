@@ -129,14 +129,14 @@ LowestMode lowest_mode(StaticTangent& tangent, double threshold) {
   return mode;
 }
 
-Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent) {
+Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent, double unbalanced) {
   Stability out;
   if (coordinates.size() == 0) {
     out.kind = Stability::Kind::stable;
     return out;
   }
   tangent.symmetrise();
-  out.threshold = neutral_threshold(coordinates, tangent);
+  out.threshold = std::max(neutral_threshold(coordinates, tangent), unbalanced);
   tangent.factorise(out.threshold);
   out.unstable = tangent.negative();
   tangent.factorise(-out.threshold);

@@ -50,7 +50,8 @@ class StaticTangent {
 
 /// Largest eigenvalue threshold below which one counts as 0, the counts, and the smallest with its mode.
 /// \param tangent  set, symmetric
-Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent);
+/// \param unbalanced  energy below which unbalanced forces may move an eigenvalue
+Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent, double unbalanced);
 
 /// The smallest eigenvalue and its mode in free coordinates, by the power of the inverse.
 struct LowestMode {

@@ -21,9 +21,11 @@ StateView view(const System::Model& model, double t, System::Workspace& work) {
     work.seen_p[i] = work.p[i];
     work.seen_v[i] = work.v[i];
     work.seen_t[i] = work.frame.z[i];
+    work.seen_m[i] = model.has_twist(i) ? work.frame.y[i] : Vec3(Vec3::Zero());
     work.seen_spin[i] = work.spin[i];
   }
-  return {t, work.seen_p, work.seen_v, work.seen_t, work.seen_spin, model.mass, model.width, model.rods};
+  return {t,          work.seen_p, work.seen_v, work.seen_t, work.seen_spin,
+          model.mass, model.width, model.rods,  work.seen_m};
 }
 
 namespace {
@@ -155,7 +157,7 @@ TENDRIL_LANES void turn(const Model& model, const Model::Segment& segment, const
 
 }  // namespace
 
-System::System(Scene scene) : model_(std::make_unique<const Model>(std::move(scene))) {}
+System::System(Scene scene, double from) : model_(std::make_unique<const Model>(std::move(scene), from)) {}
 System::~System() = default;
 System::System(System&&) noexcept = default;
 System& System::operator=(System&&) noexcept = default;
@@ -281,6 +283,7 @@ Energies System::energies(const State& state, Workspace& work) const {
   const Model& model = *model_;
   Energies result;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
+  if (!all_finite(state.y)) return result;
   if (!kinematics(model, state, state.time, state.y, what, work).ok()) return result;
   if (!elastic_energy(model, state, work, result.elastic).ok()) return result;
   for (std::size_t i = 0; i < model.nodes; ++i) {

@@ -33,7 +33,7 @@ class System::Workspace {
   Columns3 edge_force, force;
 
   // What forces other than gravity see and give; empty without them.
-  std::vector<Vec3> seen_p, seen_v, seen_t, load, torque;
+  std::vector<Vec3> seen_p, seen_v, seen_t, seen_m, load, torque;
   std::vector<double> seen_spin;
 
   /// Gradient by the unit edge i.

@@ -3,6 +3,8 @@
 #include <tendril/bind/binding.h>
 #include <tendril/dynamics/follower.h>
 
+#include <vector>
+
 namespace tendril::bind {
 
 /// Keeps points on their moving curve-pairs: every call of follow updates `out` through the binding.
@@ -12,6 +14,8 @@ class MeshFollower : public Follower {
   /// \param pair     index of the binding's first curve-pair among those of the simulation; its others follow
   /// \param out      binding.size() points, kept by reference
   MeshFollower(const Binding& binding, std::size_t pair, MutablePoints out, int threads = 1);
+  /// \param pairs  indices of the binding's curve-pairs among those of the simulation; as many as it has
+  MeshFollower(const Binding& binding, std::vector<std::size_t> pairs, MutablePoints out, int threads = 1);
 
   void follow(double time, std::span<const CurvePair> pairs) override;
 
@@ -21,7 +25,7 @@ class MeshFollower : public Follower {
 
  private:
   const Binding& binding_;
-  std::size_t pair_;
+  std::vector<std::size_t> pairs_;
   MutablePoints out_;
   int threads_;
   double time_ = 0.0;

@@ -31,6 +31,10 @@ class Interpolator {
   /// is totally positive. O(n p), no allocation beyond the result.
   std::vector<Vec3> solve(Points points) const;
 
+  /// The transposed map: forces f on the points for forces g on the control points, sum_k N_i(r_k) f_k = g_i.
+  /// Then f does the same work under moves of the points as g under those of the control points they cause.
+  std::vector<Vec3> solve_transposed(Points forces) const;
+
  private:
   double& at(std::size_t row, std::size_t column) { return band_[row * width() + column + half() - row]; }
   double at(std::size_t row, std::size_t column) const {

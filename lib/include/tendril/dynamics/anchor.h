@@ -3,6 +3,7 @@
 #include <tendril/curve/frames.h>
 
 #include <functional>
+#include <limits>
 
 namespace tendril {
 
@@ -25,6 +26,10 @@ struct Anchor {
   /// Pose as a pure function of time, its velocities the exact derivatives. Empty: fixed where the node is at
   /// rest.
   std::function<AnchorPose(double)> motion = {};
+  /// Lets go at this time: a simulation goes on with the node free from there, its controller begun anew.
+  /// What a held frame had bent its springs by is gone with it, for a node's frame has no mass across its
+  /// tangent. Statics holds on.
+  double until = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace tendril

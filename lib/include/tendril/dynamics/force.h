@@ -21,6 +21,7 @@ struct StateView {
   std::span<const double> mass;   ///< per node
   std::span<const double> width;  ///< per edge (index of its first node)
   std::span<const NodeRange> rods;
+  Points m = {};  ///< unit directors, across the tangents; zero vectors where the twist state is left out
 };
 
 /// Where a force adds what it does: a force per node, and a torque per node as a world vector. The torque's

@@ -43,7 +43,8 @@ const char* to_string(Balance balance);
 
 /// Stability of an equilibrium by the eigenvalues of its tangent K x = mu D x, D the share of the length l of
 /// each node (over l^2 for positions, plain for angles), so that mu is an energy: B / l times 12.36 for the
-/// straight cantilever. Neutral within the larger of 1e-8 B / l and the rounding of K. For loads without an
+/// straight cantilever. Neutral within the largest of 1e-8 B / l, the rounding of K and, of an equilibrium
+/// that was found, what its unbalanced forces may do: a bound on their sum, times l. For loads without an
 /// energy the symmetric part of K counts.
 struct Stability {
   enum class Kind { stable, neutral, unstable } kind = Kind::neutral;

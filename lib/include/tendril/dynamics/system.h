@@ -4,6 +4,7 @@
 #include <tendril/dynamics/scene.h>
 #include <tendril/dynamics/state.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ namespace tendril {
 class System {
  public:
   /// Throws InvalidInput naming rod, node and field ("rods[0].mass[3]").
-  explicit System(Scene scene);
+  /// \param from  anchors that let go at this time or before hold nothing; the layout of the state is that of
+  ///              the whole scene whatever they do
+  explicit System(Scene scene, double from = -std::numeric_limits<double>::infinity());
   ~System();
   System(System&&) noexcept;
   System& operator=(System&&) noexcept;

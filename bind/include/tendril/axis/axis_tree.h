@@ -1,0 +1,68 @@
+#pragma once
+
+#include <tendril/curve/curve_pair.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What find_axis returns.
+namespace tendril::axis {
+
+/// Where a curve starts: at that node of an earlier one.
+struct AxisJoint {
+  std::size_t parent, node;
+};
+
+/// A chain of nodes, as a rod's masses or as points that a cubic passes through: the curve-pair of `points`
+/// and `orientation` by centripetal interpolation (curve/fit.h).
+struct AxisCurve {
+  std::vector<Vec3> points;
+  /// Beside them, a mean edge away, in the direction of rotation-minimising frames.
+  std::vector<Vec3> orientation;
+  std::vector<double> radius;      ///< of each node: distance to the surface
+  std::optional<AxisJoint> joint;  ///< none for the first; then points[0] is the parent's node
+  double length = 0.0;             ///< of the chain
+  double strays = 0.0;             ///< largest distance of skeleton and curve, over that to the surface there
+  std::size_t outside = 0;         ///< nodes and middles of the curve that lie outside the surface
+};
+
+/// A piece of the skeleton cut off as spurious.
+struct Twig {
+  Vec3 root, tip;
+  double length;  ///< along it
+  double reach;   ///< the figure that AxisOptions::prune is compared with
+};
+
+struct AxisReport {
+  std::size_t closed_holes = 0;  ///< of the mesh, in the copy
+  std::size_t split_points = 0;  ///< non-manifold ones
+  std::size_t left_out_parts = 0;
+  std::size_t splits = 0;               ///< times that each triangle was split in four
+  int contractions = 0;                 ///< steps of the mean curvature flow
+  std::size_t ends = 0, junctions = 0;  ///< of the skeleton, before pruning
+  std::size_t loops = 0;    ///< independent ones, before they are cut open: the genus of the surface
+  std::vector<Twig> twigs;  ///< in the order they were cut off
+  std::vector<Vec3> cuts;   ///< where loops were cut open: two curves, or one curve's two ends, meet there
+};
+
+enum class AxisStatus {
+  found,
+  time_limit,  ///< no curves: see AxisOptions::time_limit
+  diverged     ///< no curves: the contraction left the finite numbers
+};
+const char* to_string(AxisStatus status);
+
+/// Parents come before their children. The first curve is the longest path through the skeleton.
+struct AxisTree {
+  AxisStatus status = AxisStatus::found;
+  std::string reason;  ///< one sentence, unless found
+  std::vector<AxisCurve> curves;
+  AxisReport report;
+};
+
+/// The curve-pair through a chain: degree 3, less for fewer than four nodes.
+CurvePair pair_of(const AxisCurve& curve);
+
+}  // namespace tendril::axis

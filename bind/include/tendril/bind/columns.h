@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+
+namespace tendril::bind {
+
+/// Points as three arrays of equal length: what vector units and graphics cards read fastest.
+template <class T>
+struct Columns {
+  std::span<T> x, y, z;
+};
+
+}  // namespace tendril::bind

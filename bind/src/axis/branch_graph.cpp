@@ -1,0 +1,297 @@
+#include "branch_graph.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tendril::axis {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+constexpr double kBlunt = 0.4;  ///< a limb narrows less steeply, a way into a corner more
+constexpr double kFork = 1.3;   ///< prongs whose reaches differ by less are alike
+
+Line reversed(Line line) {
+  std::reverse(line.begin(), line.end());
+  return line;
+}
+
+/// One line after another that starts where it ends.
+Line joined(Line first, const Line& second) {
+  first.insert(first.end(), second.begin() + 1, second.end());
+  return first;
+}
+
+/// The branch as seen from one of its places.
+Line from_place(const Branch& branch, std::uint32_t place) {
+  return branch.from == place ? branch.line : reversed(branch.line);
+}
+
+/// Walks from a place over nodes with two neighbours to the next place.
+class Walker {
+ public:
+  explicit Walker(const Skeleton& skeleton) : skeleton_(skeleton), at_(skeleton.points.size()) {
+    for (std::uint32_t e = 0; e < skeleton.edges.size(); ++e)
+      for (const std::uint32_t node : skeleton.edges[e]) at_[node].push_back(e);
+    walked_.resize(skeleton.edges.size(), false);
+    place_.resize(skeleton.points.size(), kNone);
+  }
+
+  BranchGraph run() {
+    for (std::uint32_t node = 0; node < at_.size(); ++node)
+      if (at_[node].size() != 2) settle(node);
+    if (graph_.places.empty() && !at_.empty()) settle(0);
+    for (std::uint32_t node = 0; node < at_.size(); ++node)
+      if (place_[node] != kNone)
+        for (const std::uint32_t edge : at_[node])
+          if (!walked_[edge]) walk(node, edge);
+    return std::move(graph_);
+  }
+
+ private:
+  void settle(std::uint32_t node) {
+    place_[node] = static_cast<std::uint32_t>(graph_.places.size());
+    graph_.places.push_back(skeleton_.points[node]);
+  }
+  void walk(std::uint32_t start, std::uint32_t edge) {
+    Branch branch{place_[start], kNone, {skeleton_.points[start]}};
+    for (std::uint32_t node = start; branch.to == kNone;) {
+      walked_[edge] = true;
+      const auto& ends = skeleton_.edges[edge];
+      node = ends[0] == node ? ends[1] : ends[0];
+      branch.line.push_back(skeleton_.points[node]);
+      branch.to = place_[node];
+      if (branch.to == kNone) edge = at_[node][0] == edge ? at_[node][1] : at_[node][0];
+    }
+    graph_.branches.push_back(std::move(branch));
+  }
+
+  const Skeleton& skeleton_;
+  std::vector<std::vector<std::uint32_t>> at_;
+  std::vector<bool> walked_;
+  std::vector<std::uint32_t> place_;
+  BranchGraph graph_;
+};
+
+std::vector<std::size_t> branches_at(const BranchGraph& graph, std::uint32_t place) {
+  std::vector<std::size_t> out;
+  for (std::size_t b = 0; b < graph.branches.size(); ++b)
+    if (graph.branches[b].from == place || graph.branches[b].to == place) out.push_back(b);
+  return out;
+}
+
+/// Where two different branches meet and no other, they become one.
+void smooth_over(BranchGraph& graph, std::uint32_t place) {
+  const std::vector<std::size_t> at = branches_at(graph, place);
+  if (graph.degrees()[place] != 2 || at.size() != 2) return;
+  const Branch& a = graph.branches[at[0]];
+  const Branch& b = graph.branches[at[1]];
+  Branch one{a.from == place ? a.to : a.from, b.from == place ? b.to : b.from,
+             joined(reversed(from_place(a, place)), from_place(b, place))};
+  graph.branches[at[0]] = std::move(one);
+  graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(at[1]));
+}
+
+struct Leaf {
+  std::size_t branch;
+  std::uint32_t root;
+  Twig twig;
+};
+
+/// Branches with one end free and the other a junction.
+std::vector<Leaf> leaves_of(const BranchGraph& graph, const Clearance& clearance) {
+  const std::vector<int> degree = graph.degrees();
+  std::vector<Leaf> out;
+  for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+    const Branch& branch = graph.branches[b];
+    const bool free_from = degree[branch.from] == 1, free_to = degree[branch.to] == 1;
+    const std::uint32_t root = free_from ? branch.to : branch.from;
+    if (free_from == free_to || degree[root] < 3) continue;
+    const Line line = from_place(branch, root);
+    double farthest = 0.0;
+    for (const Vec3& p : line) farthest = std::max(farthest, (p - line.front()).norm() + clearance(p));
+    const double reach = farthest / clearance(line.front());
+    out.push_back({b, root, {line.front(), line.back(), length_of(line), reach}});
+  }
+  return out;
+}
+
+/// The leaf of least reach; and, where a fork at the end of a limb is about to be cut, its other prong when
+/// that is hardly longer: neither goes on along the limb.
+std::vector<Leaf> least_leaves(const BranchGraph& graph, const Clearance& clearance) {
+  const std::vector<Leaf> leaves = leaves_of(graph, clearance);
+  if (leaves.empty()) return {};
+  const auto shorter = [](const Leaf& a, const Leaf& b) { return a.twig.reach < b.twig.reach; };
+  const Leaf least = *std::min_element(leaves.begin(), leaves.end(), shorter);
+  std::vector<Leaf> fork;
+  for (const Leaf& leaf : leaves)
+    if (leaf.root == least.root && leaf.branch != least.branch) fork.push_back(leaf);
+  if (graph.degrees()[least.root] != 3 || fork.size() != 1) return {least};
+  if (fork[0].twig.reach > kFork * least.twig.reach) return {least};
+  return {least, fork[0]};
+}
+
+/// The two halves of a line about the place `length` along it, which both hold.
+std::array<Line, 2> cut_at(const Line& line, double length) {
+  std::size_t k = 1;
+  for (double step = 0.0; k + 1 < line.size(); ++k, length -= step) {
+    step = (line[k] - line[k - 1]).norm();
+    if (length <= step) break;
+  }
+  const double step = (line[k] - line[k - 1]).norm();
+  const double part = step > 0.0 ? std::clamp(length / step, 0.0, 1.0) : 0.0;
+  const Vec3 cut = line[k - 1] + part * (line[k] - line[k - 1]);
+  Line first(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(k));
+  Line second(line.begin() + static_cast<std::ptrdiff_t>(k), line.end());
+  if (first.back() != cut || first.size() == 1) first.push_back(cut);
+  if (second.front() != cut || second.size() == 1) second.insert(second.begin(), cut);
+  return {first, second};
+}
+
+/// How many of the first points of a line lie where it runs into a corner, at most to its middle: so far its
+/// clearance grows faster than kBlunt with the length.
+std::size_t blunt(const Line& line, const Clearance& clearance) {
+  const double half = 0.5 * length_of(line), first = clearance(line.front());
+  double length = 0.0;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+    length += (line[k] - line[k - 1]).norm();
+    if (length > half || clearance(line[k]) - first < kBlunt * length) return k - 1;
+  }
+  return 0;
+}
+
+struct Reached {
+  std::vector<double> distance;      ///< of the places from the start, along branches
+  std::vector<std::size_t> through;  ///< branch that each was reached by, or none
+};
+
+/// Shortest ways from a place to all others. A place a round: there are few.
+Reached shortest_ways(const BranchGraph& graph, std::uint32_t start) {
+  const double far = std::numeric_limits<double>::infinity();
+  Reached out{std::vector<double>(graph.places.size(), far),
+              std::vector<std::size_t>(graph.places.size(), graph.branches.size())};
+  std::vector<bool> done(graph.places.size(), false);
+  out.distance[start] = 0.0;
+  for (;;) {
+    std::uint32_t next = kNone;
+    for (std::uint32_t p = 0; p < graph.places.size(); ++p)
+      if (!done[p] && out.distance[p] < far && (next == kNone || out.distance[p] < out.distance[next]))
+        next = p;
+    if (next == kNone) return out;
+    done[next] = true;
+    for (const std::size_t b : branches_at(graph, next)) {
+      const Branch& branch = graph.branches[b];
+      const std::uint32_t other = branch.from == next ? branch.to : branch.from;
+      const double distance = out.distance[next] + length_of(branch.line);
+      if (distance < out.distance[other]) {
+        out.distance[other] = distance;
+        out.through[other] = b;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double length_of(const Line& line) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < line.size(); ++k) sum += (line[k] - line[k - 1]).norm();
+  return sum;
+}
+
+std::vector<int> BranchGraph::degrees() const {
+  std::vector<int> out(places.size(), 0);
+  for (const Branch& branch : branches) {
+    ++out[branch.from];
+    ++out[branch.to];
+  }
+  return out;
+}
+
+std::size_t BranchGraph::loops() const {
+  const std::vector<int> degree = degrees();
+  const auto used = degree.size() - static_cast<std::size_t>(std::count(degree.begin(), degree.end(), 0));
+  return branches.empty() ? 0 : branches.size() + 1 - used;
+}
+
+BranchGraph branches_of(const Skeleton& skeleton) {
+  return Walker(skeleton).run();
+}
+
+std::vector<Twig> prune(BranchGraph& graph, double least_reach, const Clearance& clearance) {
+  std::vector<Twig> out;
+  for (;;) {
+    std::vector<Leaf> cut = least_leaves(graph, clearance);
+    std::erase_if(cut, [&](const Leaf& leaf) { return leaf.twig.reach >= least_reach; });
+    if (cut.empty()) return out;
+    for (const Leaf& leaf : cut) out.push_back(leaf.twig);
+    std::sort(cut.begin(), cut.end(), [](const Leaf& a, const Leaf& b) { return a.branch > b.branch; });
+    for (const Leaf& leaf : cut)
+      graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(leaf.branch));
+    smooth_over(graph, cut.front().root);
+  }
+}
+
+void merge_junctions(BranchGraph& graph, const Clearance& clearance) {
+  for (std::size_t b = 0; b < graph.branches.size();) {
+    const Branch bridge = graph.branches[b];
+    const std::vector<int> degree = graph.degrees();
+    const double from = clearance(graph.places[bridge.from]), to = clearance(graph.places[bridge.to]);
+    if (bridge.from == bridge.to || degree[bridge.from] < 3 || degree[bridge.to] < 3 ||
+        length_of(bridge.line) > 0.5 * std::max(from, to)) {
+      ++b;
+      continue;
+    }
+    const std::uint32_t kept = from >= to ? bridge.from : bridge.to;
+    const std::uint32_t gone = kept == bridge.from ? bridge.to : bridge.from;
+    graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(b));
+    for (Branch& other : graph.branches) {
+      if (other.from == gone) other = {kept, other.to, joined(from_place(bridge, kept), other.line)};
+      if (other.to == gone) other = {other.from, kept, joined(other.line, from_place(bridge, gone))};
+    }
+    b = 0;
+  }
+}
+
+void trim_ends(BranchGraph& graph, const Clearance& clearance) {
+  const std::vector<int> degree = graph.degrees();
+  for (Branch& branch : graph.branches)
+    for (const std::uint32_t end : {branch.from, branch.to}) {
+      if (degree[end] != 1) continue;
+      Line line = from_place(branch, end);
+      const std::size_t cut = blunt(line, clearance);
+      line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(cut));
+      graph.places[end] = line.front();
+      branch.line = branch.from == end ? std::move(line) : reversed(std::move(line));
+    }
+}
+
+std::vector<Vec3> cut_loops(BranchGraph& graph, const Clearance& clearance) {
+  std::vector<Vec3> cuts;
+  const std::vector<int> degree = graph.degrees();
+  std::uint32_t start = kNone;
+  double widest = -1.0;
+  for (std::uint32_t p = 0; p < graph.places.size(); ++p) {
+    if (degree[p] == 0 || !(clearance(graph.places[p]) > widest)) continue;
+    start = p;
+    widest = clearance(graph.places[p]);
+  }
+  if (start == kNone) return cuts;
+  const Reached reached = shortest_ways(graph, start);
+  const std::size_t count = graph.branches.size();
+  for (std::size_t b = 0; b < count; ++b) {
+    const Branch branch = graph.branches[b];
+    if (reached.through[branch.from] == b || reached.through[branch.to] == b) continue;
+    const double along =
+        0.5 * (length_of(branch.line) + reached.distance[branch.to] - reached.distance[branch.from]);
+    auto [first, second] = cut_at(branch.line, along);
+    cuts.push_back(first.back());
+    const auto place = static_cast<std::uint32_t>(graph.places.size());
+    graph.places.insert(graph.places.end(), 2, cuts.back());
+    graph.branches[b] = {branch.from, place, std::move(first)};
+    graph.branches.push_back({place + 1, branch.to, std::move(second)});
+  }
+  for (std::uint32_t p = 0; p < graph.places.size(); ++p) smooth_over(graph, p);
+  return cuts;
+}
+
+}  // namespace tendril::axis

@@ -1,0 +1,209 @@
+#include <tendril/axis/find_axis.h>
+#include <tendril/base/error.h>
+#include <tendril/curve/closest_point.h>
+#include <tendril/curve/fit.h>
+#include <tendril/curve/reference_frames.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "centre.h"
+#include "path_fit.h"
+#include "paths.h"
+#include "prepare.h"
+#include "surface.h"
+
+namespace tendril::axis {
+namespace {
+
+constexpr std::size_t kSamples = 200;  ///< of a path to be fitted
+constexpr int kTries = 3;              ///< at a curve within the surface, each twice as close to the skeleton
+
+void check(const AxisOptions& options) {
+  const auto require = [](bool right, const char* name, double value, const char* expected) {
+    if (!right) throw InvalidInput(name, std::to_string(value), expected);
+  };
+  require(options.prune >= 0.0 && std::isfinite(options.prune), "prune", options.prune, "a number from 0");
+  require(!options.spacing || (*options.spacing > 0.0 && std::isfinite(*options.spacing)), "spacing",
+          options.spacing.value_or(0.0), "a positive number");
+  require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance,
+          "above 0, at most 1");
+  require(options.time_limit > 0.0, "time_limit", options.time_limit, "a positive number");
+}
+
+int degree_of(std::size_t points) {
+  return std::min(3, static_cast<int>(points) - 1);
+}
+
+/// Fits one path after another, parents before children.
+class Fitter {
+ public:
+  Fitter(const Surface& surface, const AxisOptions& options, double spacing)
+      : surface_(surface), options_(options), spacing_(spacing) {}
+
+  std::vector<AxisCurve> run(std::vector<Path> paths) {
+    for (Path& path : paths) {
+      std::optional<AxisJoint> joint;
+      if (path.parent) {
+        joint = joint_of(path, paths[*path.parent]);
+        path.line.front() = curves_[joint->parent].points[joint->node];
+      }
+      AxisCurve curve = fit_within(path);
+      curve.joint = joint;
+      orient(curve);
+      curves_.push_back(std::move(curve));
+    }
+    return std::move(curves_);
+  }
+
+ private:
+  /// The parent's node at the place where the path leaves it.
+  AxisJoint joint_of(const Path& path, const Path& parent) const {
+    const auto at = std::find(parent.places.begin(), parent.places.end(), path.places.front());
+    return {*path.parent, nodes_[*path.parent][static_cast<std::size_t>(at - parent.places.begin())]};
+  }
+
+  AxisCurve fit_within(const Path& path) {
+    const Line samples = centred(evenly(path.line, kSamples), surface_);
+    const std::vector<double> width = half_widths(samples, surface_);
+    std::optional<AxisCurve> best;
+    nodes_.emplace_back();
+    double closer = 1.0;
+    for (int k = 0; k < kTries && (!best || best->outside > 0 || best->strays > 1.0); ++k, closer *= 0.5) {
+      const Spread spread = spread_nodes(path, closer * spacing_);
+      const BSpline fitted = fit(samples, width, closer * options_.tolerance);
+      AxisCurve curve;
+      for (const double t : spread.parameters) curve.points.push_back(fitted.value(t));
+      measure(curve, samples, width);
+      if (best && std::tie(curve.outside, curve.strays) >= std::tie(best->outside, best->strays)) continue;
+      best = std::move(curve);
+      nodes_.back() = spread.node_of_place;
+    }
+    return *best;
+  }
+
+  void measure(AxisCurve& curve, const Line& samples, const std::vector<double>& width) const {
+    const Interpolator through(degree_of(curve.points.size()), curve.points);
+    const CurveProjector projector(BSpline(through.knots(), through.solve(curve.points)));
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      curve.strays = std::max(curve.strays, projector.nearest(samples[k]).distance / width[k]);
+    const std::vector<double>& at = through.parameters();
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      curve.radius.push_back(surface_.distance(curve.points[k]));
+      if (!surface_.holds(curve.points[k])) ++curve.outside;
+      if (k == 0) continue;
+      curve.length += (curve.points[k] - curve.points[k - 1]).norm();
+      if (!surface_.holds(projector.curve().value(0.5 * (at[k - 1] + at[k])))) ++curve.outside;
+    }
+  }
+
+  /// Where the first frame's side points: across the whole of the first curve, and as the parent's for the
+  /// others.
+  Vec3 side(const AxisCurve& curve) const {
+    if (curve.joint) {
+      const AxisCurve& parent = curves_[curve.joint->parent];
+      const Vec3 y = parent.orientation[curve.joint->node] - parent.points[curve.joint->node];
+      const Vec3 z = curve.points[1] - curve.points[0];
+      if (y.cross(z).norm() > 0.3 * y.norm() * z.norm()) return y;
+      const std::size_t next = std::min(curve.joint->node + 1, parent.points.size() - 1);
+      return y.cross(parent.points[next] - parent.points[next - 1]);
+    }
+    Eigen::Index axis = 0;
+    (curve.points.back() - curve.points.front()).cwiseAbs().minCoeff(&axis);
+    return Vec3::Unit(axis);
+  }
+
+  void orient(AxisCurve& curve) const {
+    const Interpolator through(degree_of(curve.points.size()), curve.points);
+    const BSpline primary(through.knots(), through.solve(curve.points));
+    const NodeFrames frames = rotation_minimising_frames(primary, through.parameters(), side(curve));
+    const double offset = curve.length / static_cast<double>(curve.points.size() - 1);
+    for (std::size_t k = 0; k < curve.points.size(); ++k)
+      curve.orientation.push_back(curve.points[k] + offset * frames.frame[k].y);
+  }
+
+  const Surface& surface_;
+  const AxisOptions& options_;
+  double spacing_;
+  std::vector<AxisCurve> curves_;
+  std::vector<std::vector<std::size_t>> nodes_;  ///< of the places of each path
+};
+
+/// Back to where the mesh was.
+void put_back(const Placement& placement, AxisTree& tree) {
+  const auto move = [&](Vec3& p) { p = placement.back(p); };
+  for (AxisCurve& curve : tree.curves) {
+    std::for_each(curve.points.begin(), curve.points.end(), move);
+    std::for_each(curve.orientation.begin(), curve.orientation.end(), move);
+    for (double& r : curve.radius) r *= placement.scale;
+    curve.length *= placement.scale;
+  }
+  for (AxisCurve& curve : tree.curves)
+    if (curve.joint) curve.points[0] = tree.curves[curve.joint->parent].points[curve.joint->node];
+  for (Twig& twig : tree.report.twigs) {
+    move(twig.root);
+    move(twig.tip);
+    twig.length *= placement.scale;
+  }
+  std::for_each(tree.report.cuts.begin(), tree.report.cuts.end(), move);
+}
+
+void note_skeleton(const BranchGraph& graph, AxisReport& report) {
+  for (const int degree : graph.degrees()) {
+    report.ends += degree == 1;
+    report.junctions += degree > 2;
+  }
+  report.loops = graph.loops();
+}
+
+}  // namespace
+
+AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
+  check(options);
+  AxisTree tree;
+  const Prepared prepared = prepare(mesh, options, tree.report);
+  const Contracted contracted = contract(prepared.mesh, options.time_limit);
+  tree.report.contractions = contracted.steps;
+  if (contracted.state != Contraction::converged) {
+    const bool late = contracted.state == Contraction::out_of_time;
+    tree.status = late ? AxisStatus::time_limit : AxisStatus::diverged;
+    tree.reason = (late ? "the time limit was reached in" : "numbers that are not finite came up in") +
+                  std::string(" step ") + std::to_string(contracted.steps) + " of the contraction";
+    return tree;
+  }
+  const Surface surface(prepared.mesh);
+  const Clearance clearance = [&](const Vec3& p) { return surface.distance(p); };
+  BranchGraph graph = branches_of(contracted.skeleton);
+  note_skeleton(graph, tree.report);
+  tree.report.twigs = prune(graph, options.prune, clearance);
+  merge_junctions(graph, clearance);
+  trim_ends(graph, clearance);
+  tree.report.cuts = cut_loops(graph, clearance);
+  std::vector<Path> paths = paths_of(graph);
+  if (paths.empty()) return tree;
+  const double longest = paths.front().along.back();
+  const double spacing = options.spacing ? *options.spacing / prepared.placement.scale : longest / 40.0;
+  tree.curves = Fitter(surface, options, spacing).run(std::move(paths));
+  put_back(prepared.placement, tree);
+  return tree;
+}
+
+const char* to_string(AxisStatus status) {
+  switch (status) {
+    case AxisStatus::found:
+      return "found";
+    case AxisStatus::time_limit:
+      return "time_limit";
+    case AxisStatus::diverged:
+      return "diverged";
+  }
+  return "";
+}
+
+CurvePair pair_of(const AxisCurve& curve) {
+  const Interpolator through(degree_of(curve.points.size()), curve.points);
+  return {through.knots(), through.solve(curve.points), through.solve(curve.orientation)};
+}
+
+}  // namespace tendril::axis

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <tendril/axis/axis_options.h>
+#include <tendril/axis/axis_tree.h>
+#include <tendril/bind/polygon_mesh.h>
+
+namespace tendril::axis {
+
+/// Where the copy is: p = centre + scale q, of about unit size about the origin.
+struct Placement {
+  Vec3 centre = Vec3::Zero();
+  double scale = 1.0;  ///< a power of two
+
+  Vec3 back(const Vec3& q) const { return centre + scale * q; }
+};
+
+struct Prepared {
+  bind::PolygonMesh mesh;
+  Placement placement;
+};
+
+/// A copy that CGAL can be given: one closed, manifold, oriented surface of triangles with some area, of at
+/// least `least_points` points. Closed and cut down as the options say, else InvalidInput with all that is
+/// wrong.
+Prepared prepare(const bind::PolygonMesh& mesh, const AxisOptions& options, AxisReport& report);
+
+}  // namespace tendril::axis

@@ -1,0 +1,173 @@
+#include "moments.h"
+
+#include <cstring>
+
+namespace tendril::bind {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
+
+/// Forces on what a point is made of: the velocity z and the scaled offset.
+struct Pulled {
+  Triple<double> z, d;
+};
+
+/// With X, Y, Z the frame: what turns X is g_x = u f + v (f x Z), what turns Z is g_z = w f + v (X x f); the
+/// parts across X and Z, over the lengths, act on x = d cross z and on z.
+template <int P>
+TENDRIL_INLINE Pulled pull(const Piece<double>& piece, double s, double u, double v, double w,
+                           const Triple<double>& f) {
+  const Moving<double> at = moving<double, P>(piece, s);
+  const Lengths<double> inverse = inverse_lengths(at);
+  const Triple<double> x = inverse.x * at.x;
+  const Triple<double> z = inverse.z * at.z;
+  const Triple<double> gx = u * f + v * cross(f, z);
+  const Triple<double> gz = w * f + v * cross(x, f);
+  const Triple<double> hx = inverse.x * (gx - dot(x, gx) * x);
+  const Triple<double> hz = inverse.z * (gz - dot(z, gz) * z);
+  const Triple<double> on_z = hz + cross(hx, at.offset);
+  const Triple<double> on_d = cross(at.z, hx);
+  const auto kept = [&](double value) { return at.sound > 0.5 ? value : 0.0; };
+  return {{kept(on_z.x), kept(on_z.y), kept(on_z.z)}, {kept(on_d.x), kept(on_d.y), kept(on_d.z)}};
+}
+
+/// Columns of a chunk: filled with zeros up to a multiple of the lanes.
+struct Scratch {
+  alignas(64) double s[kMomentChunk];
+  alignas(64) double f[3][kMomentChunk], z[3][kMomentChunk], d[3][kMomentChunk];
+};
+
+template <int P>
+TENDRIL_INLINE void pull_all(const Piece<double>& piece, const RecordsView<double>& records,
+                             std::size_t count, Scratch& to) {
+  const double* __restrict u = records.u, * __restrict v = records.v, * __restrict w = records.w;
+  const Piece<double> local = piece;
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < count; ++i) {
+    const Pulled at = pull<P>(local, to.s[i], u[i], v[i], w[i], {to.f[0][i], to.f[1][i], to.f[2][i]});
+    to.z[0][i] = at.z.x;
+    to.z[1][i] = at.z.y;
+    to.z[2][i] = at.z.z;
+    to.d[0][i] = at.d.x;
+    to.d[1][i] = at.d.y;
+    to.d[2][i] = at.d.z;
+  }
+}
+
+/// By reference: how vectors are returned depends on the vector unit.
+TENDRIL_INLINE void load(const double* from, Lanes& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+
+TENDRIL_INLINE double sum(const Lanes& a) {
+  return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+}
+
+/// Coefficient j of c feels s^j f and, through z = dc/ds, j s^(j - 1) times the force on z; that of d feels
+/// s^j times the force on d.
+template <int P, int J>
+TENDRIL_INLINE void raise(const Lanes& s, const Lanes& sf, const Lanes& z, const Lanes& power, Lanes* c) {
+  if constexpr (J <= P) {
+    c[J] += power * (sf + static_cast<double>(J) * z);
+    raise<P, J + 1>(s, sf, z, power * s, c);
+  }
+}
+
+template <int P, int J>
+TENDRIL_INLINE void raise(const Lanes& s, const Lanes& now, Lanes* d) {
+  if constexpr (J <= P) {
+    d[J] += now;
+    raise<P, J + 1>(s, now * s, d);
+  }
+}
+
+template <int P>
+TENDRIL_INLINE void sum_moments(const Scratch& from, std::size_t k, std::size_t padded, Moments& to) {
+  Lanes c[P + 1] = {}, d[P + 1] = {};
+  for (std::size_t i = 0; i < padded; i += kLanes) {
+    Lanes s, f, on_z, on_d;
+    load(from.s + i, s);
+    load(from.f[k] + i, f);
+    load(from.z[k] + i, on_z);
+    load(from.d[k] + i, on_d);
+    c[0] += f;
+    raise<P, 1>(s, s * f, on_z, Lanes{1, 1, 1, 1, 1, 1, 1, 1}, c);
+    raise<P, 0>(s, on_d, d);
+  }
+  for (std::size_t j = 0; j <= P; ++j) {
+    to.c[j][k] += sum(c[j]);
+    to.d[j][k] += sum(d[j]);
+  }
+}
+
+template <int P>
+TENDRIL_INLINE void moments(const Piece<double>& piece, const RecordsView<double>& records,
+                            const ColumnsView<const double>& force, std::size_t count, Moments& to) {
+  Scratch scratch;
+  const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+  const auto copy = [&](const double* from, double* column) {
+    std::memcpy(column, from, count * sizeof(double));
+    for (std::size_t i = count; i < padded; ++i) column[i] = 0.0;
+  };
+  copy(records.s, scratch.s);
+  copy(force.x, scratch.f[0]);
+  copy(force.y, scratch.f[1]);
+  copy(force.z, scratch.f[2]);
+  pull_all<P>(piece, records, count, scratch);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = count; i < padded; ++i) scratch.z[k][i] = scratch.d[k][i] = 0.0;
+    sum_moments<P>(scratch, k, padded, to);
+  }
+}
+
+using View = ColumnsView<const double>;
+
+template <int P>
+TENDRIL_UNIT_PLAIN void moments_plain(const Piece<double>& p, const RecordsView<double>& r, const View& f,
+                                      std::size_t n, Moments& to) {
+  moments<P>(p, r, f, n, to);
+}
+template <int P>
+TENDRIL_UNIT_256 void moments_256(const Piece<double>& p, const RecordsView<double>& r, const View& f,
+                                  std::size_t n, Moments& to) {
+  moments<P>(p, r, f, n, to);
+}
+template <int P>
+TENDRIL_UNIT_512 void moments_512(const Piece<double>& p, const RecordsView<double>& r, const View& f,
+                                  std::size_t n, Moments& to) {
+  moments<P>(p, r, f, n, to);
+}
+
+}  // namespace
+
+Moments& Moments::operator+=(const Moments& other) {
+  for (std::size_t j = 0; j < kMostTerms; ++j)
+    for (std::size_t k = 0; k < 3; ++k) {
+      c[j][k] += other.c[j][k];
+      d[j][k] += other.d[j][k];
+    }
+  return *this;
+}
+
+void add_moments_on(VectorUnit unit, const Piece<double>& piece, const RecordsView<double>& records,
+                    const ColumnsView<const double>& force, std::size_t count, Moments& to) {
+  for_degree(piece.degree, [&](auto degree) {
+    constexpr int p = decltype(degree)::value;
+    switch (unit) {
+      case VectorUnit::bits_512:
+        return moments_512<p>(piece, records, force, count, to);
+      case VectorUnit::bits_256:
+        return moments_256<p>(piece, records, force, count, to);
+      default:
+        return moments_plain<p>(piece, records, force, count, to);
+    }
+  });
+}
+
+void add_moments(const Piece<double>& piece, const RecordsView<double>& records,
+                 const ColumnsView<const double>& force, std::size_t count, Moments& to) {
+  add_moments_on(widest_unit(), piece, records, force, count, to);
+}
+
+}  // namespace tendril::bind

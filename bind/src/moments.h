@@ -1,0 +1,24 @@
+#pragma once
+
+#include "sweep.h"
+
+namespace tendril::bind {
+
+/// Forces on the coefficients of a span's polynomials, c_j and the scaled d_j.
+struct Moments {
+  std::array<std::array<double, 3>, kMostTerms> c{}, d{};
+
+  Moments& operator+=(const Moments& other);
+};
+
+inline constexpr std::size_t kMomentChunk = 256;
+
+/// Adds what forces on points of a span do to its polynomials: the transpose of place() by c_j and d_j, the
+/// records fixed. Where there is no frame the point is taken to follow the curve alone. The sum has one
+/// order, eight lanes added up in the end, on every vector unit. \param count  at most kMomentChunk
+void add_moments(const Piece<double>& piece, const RecordsView<double>& records,
+                 const ColumnsView<const double>& force, std::size_t count, Moments& to);
+void add_moments_on(VectorUnit unit, const Piece<double>& piece, const RecordsView<double>& records,
+                    const ColumnsView<const double>& force, std::size_t count, Moments& to);
+
+}  // namespace tendril::bind

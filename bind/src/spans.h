@@ -1,0 +1,54 @@
+#pragma once
+
+#include <tendril/curve/curve_pair.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tendril::bind {
+
+inline constexpr std::size_t kMostTerms = kMaxDegree + 1;
+
+/// A non-empty span of a curve-pair's knots, and how its control points become polynomials in
+/// s = (t - middle) / length, |s| <= 1/2.
+struct Span {
+  std::uint32_t pair;
+  std::uint32_t first;  ///< control point
+  int degree;
+  double middle, length;
+  /// Row j: the weights of the degree + 1 control points in the coefficient of s^j.
+  std::array<std::array<double, kMostTerms>, kMostTerms> power;
+
+  std::size_t terms() const { return static_cast<std::size_t>(degree) + 1; }
+  /// The control point that the others are taken relative to, so that coefficients far from the origin keep
+  /// the digits of their differences.
+  std::size_t reference() const { return first + terms() / 2; }
+};
+
+/// \param span  index of its first knot, as KnotVector::span gives it
+Span make_span(std::uint32_t pair, const KnotVector& knots, int span);
+
+/// A span of a posed curve-pair as the loops read it: c(s) = sum_j s^j c_j, and the offset to the orientation
+/// curve, times a power of 2 that makes the largest of its control points about 1.
+template <class T>
+struct Piece {
+  int degree = 1;
+  std::array<std::array<T, 3>, kMostTerms> c{}, d{};
+  double scale = 0.0;  ///< that power of 2
+  /// Squares of |dc/ds| and of |offset x dc/ds|; what is not above them the loops leave to the second pass.
+  T least_speed = T(0), least_area = T(0);
+};
+
+template <class T>
+Piece<T> pose(const Span& span, const CurvePair& posed);
+
+template <class T>
+std::vector<Piece<T>> pose(const std::vector<Span>& spans, std::span<const CurvePair> posed) {
+  std::vector<Piece<T>> pieces;
+  pieces.reserve(spans.size());
+  for (const Span& span : spans) pieces.push_back(pose<T>(span, posed[span.pair]));
+  return pieces;
+}
+
+}  // namespace tendril::bind

@@ -1,0 +1,88 @@
+#include <tendril/base/error.h>
+#include <tendril/bind/binding.h>
+#include <tendril/bind/bindingf.h>
+
+#include <string>
+
+#include "placer.h"
+
+namespace tendril::bind {
+namespace {
+
+void require(const char* what, std::size_t given, std::size_t expected) {
+  if (given != expected)
+    throw InvalidInput(what, std::to_string(given) + " points", std::to_string(expected));
+}
+
+void require_threads(int threads) {
+  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
+}
+
+template <class T>
+ColumnsView<T> view(const Columns<T>& out, std::size_t size) {
+  require("out.x", out.x.size(), size);
+  require("out.y", out.y.size(), size);
+  require("out.z", out.z.size(), size);
+  return {out.x.data(), out.y.data(), out.z.data()};
+}
+
+Placer<double> placer(const Binding& binding, std::span<const CurvePair> posed) {
+  return {binding.layout(), binding.layout().numbers, posed};
+}
+
+}  // namespace
+
+void Binding::update(std::span<const CurvePair> posed, MutablePoints out, int threads) const {
+  require("out", out.size(), size());
+  require_threads(threads);
+  placer(*this, posed).update(out.data(), threads);
+}
+
+void Binding::update(const CurvePair& posed, MutablePoints out, int threads) const {
+  update({&posed, 1}, out, threads);
+}
+
+void Binding::update(std::span<const CurvePair> posed, const Columns<double>& out, int threads) const {
+  require_threads(threads);
+  placer(*this, posed).update(view(out, size()), threads);
+}
+
+Vec3 Binding::at(std::span<const CurvePair> posed, std::size_t point) const {
+  const Triple<double> p = placer(*this, posed).one(point);
+  return {p.x, p.y, p.z};
+}
+
+Vec3 Binding::at(const CurvePair& posed, std::size_t point) const {
+  return at({&posed, 1}, point);
+}
+
+void Binding::at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points,
+                 MutablePoints out) const {
+  require("out", out.size(), points.size());
+  placer(*this, posed).some(points, out.data());
+}
+
+struct Bindingf::Numbers : Binding::Layout::Numbers<float> {};
+
+Bindingf::Bindingf(const Binding& binding)
+    : binding_(binding),
+      numbers_(std::make_shared<const Numbers>(Numbers{{Records<float>(binding.layout().numbers.nearest),
+                                                        Records<float>(binding.layout().numbers.others)}})) {}
+
+void Bindingf::update(std::span<const CurvePair> posed, std::span<Eigen::Vector3f> out, int threads) const {
+  require("out", out.size(), size());
+  require_threads(threads);
+  Placer<float>(binding_.layout(), *numbers_, posed).update(out.data(), threads);
+}
+
+void Bindingf::update(std::span<const CurvePair> posed, const Columns<float>& out, int threads) const {
+  require_threads(threads);
+  Placer<float>(binding_.layout(), *numbers_, posed).update(view(out, size()), threads);
+}
+
+Eigen::Vector3f Bindingf::at(std::span<const CurvePair> posed, std::size_t point) const {
+  const Triple<float> p = Placer<float>(binding_.layout(), *numbers_, posed).one(point);
+  return {p.x, p.y, p.z};
+}
+
+}  // namespace tendril::bind

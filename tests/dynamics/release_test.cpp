@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/simulation.h>
+
+#include "support/rods.h"
+
+namespace tendril {
+namespace {
+
+constexpr double kRelease = 0.2, kEnd = 0.7, kGravity = 9.81;
+
+Scene hanging(bool anisotropic, double until) {
+  Scene scene;
+  const std::vector<Vec3> p = test::straight(10, 1.0);
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3(0, 0.5, 1), 0.1), {1e6, 3e5, 1000},
+                                elliptic_section(0.02, anisotropic ? 0.012 : 0.02)));
+  scene.anchors.push_back({.rod = 0, .node = 0, .until = until});
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -kGravity)));
+  return scene;
+}
+
+double mass_of(const Rod& rod) {
+  double mass = 0.0;
+  for (const double m : rod.mass) mass += m;
+  return mass;
+}
+
+SimulationOptions options_for(Method method) {
+  SimulationOptions options;
+  options.method = method;
+  options.tolerance = 1e-7;
+  return options;
+}
+
+class Released : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, Released, testing::Values(Method::cash_karp, Method::rodas),
+                         [](const auto& method) { return std::string(to_string(method.param)); });
+
+TEST_P(Released, RodFallsFreely) {
+  for (const bool anisotropic : {false, true}) {
+    const System system(hanging(anisotropic, kRelease));
+    const System free(system.scene(), kRelease);
+    Simulation simulation(system, system.rest_state(), options_for(GetParam()));
+    ASSERT_EQ(simulation.run(kRelease).stop, Stop::finished);
+    const State before = simulation.state();
+    const Report report = simulation.run(kEnd);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_LT(std::abs(report.imbalance), 1e-5);
+
+    const test::Momentum at_release = test::momentum(free, before);
+    const test::Momentum at_end = test::momentum(free, simulation.state());
+    const double mass = mass_of(system.scene().rods[0]), fallen = kEnd - kRelease;
+    const Vec3 fall(0, 0, -mass * kGravity * fallen);
+    EXPECT_LT((at_end.linear - at_release.linear - fall).norm(), 1e-9 * fall.norm());
+    // About the origin: the weight acts at the center of mass, which flies on a parabola.
+    Vec3 center = Vec3::Zero();
+    for (std::size_t i = 0; i < system.node_count(); ++i)
+      center += system.scene().rods[0].mass[i] / mass * test::at(before.y, i);
+    const Vec3 speed = at_release.linear / mass;
+    const Vec3 turned =
+        (center * fallen + speed * (0.5 * fallen * fallen)).cross(Vec3(0, 0, -mass * kGravity));
+    EXPECT_LT((at_end.angular - at_release.angular - turned).norm(), 1e-6 * turned.norm());
+  }
+}
+
+TEST(ReleasedAnchor, IsTheSameAsASceneWithoutItFromThere) {
+  const System system(hanging(true, kRelease));
+  Simulation simulation(system, system.rest_state(), options_for(Method::cash_karp));
+  simulation.run(kEnd);
+  const System held(hanging(true, HUGE_VAL));
+  Simulation first(held, held.rest_state(), options_for(Method::cash_karp));
+  first.run(kRelease);
+  Scene scene = held.scene();
+  scene.anchors.clear();
+  const System free(scene);
+  State state = first.state();
+  ASSERT_TRUE(free.rebase(state, *free.make_workspace()).ok());
+  Simulation second(free, state, options_for(Method::cash_karp));
+  second.run(kEnd);
+  const auto n = 3 * static_cast<Eigen::Index>(system.node_count());
+  EXPECT_LT((simulation.state().y.head(n) - second.state().y.head(n)).norm(), 1e-5);
+  EXPECT_GT((simulation.state().y.head(n) - first.state().y.head(n)).norm(), 0.1);
+}
+
+TEST(ReleasedAnchor, LetsATurningClampsSpinGoOn) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(6, 1e6, 0.02));
+  Anchor anchor{.rod = 0, .node = 0, .until = 0.5};
+  anchor.motion = [](double t) {
+    AnchorPose pose;
+    pose.frame = {rotate_about(Vec3::UnitX(), 8 * t, -Vec3::UnitY()),
+                  rotate_about(Vec3::UnitX(), 8 * t, Vec3::UnitZ()), Vec3::UnitX()};
+    pose.angular_velocity = Vec3(8, 0, 0);
+    return pose;
+  };
+  scene.anchors.push_back(anchor);
+  const System system(scene);
+  const System free(scene, 0.5);
+  Simulation simulation(system, system.rest_state(), options_for(Method::cash_karp));
+  ASSERT_EQ(simulation.run(0.5).stop, Stop::finished);
+  const double before = test::momentum(free, simulation.state()).angular.x();
+  ASSERT_EQ(simulation.run(1.0).stop, Stop::finished);
+  EXPECT_GT(before, 0.0);
+  EXPECT_NEAR(test::momentum(free, simulation.state()).angular.x(), before, 1e-6 * before);
+}
+
+TEST(ReleasedAnchor, RestartsTheChoiceAndKeepsTheBook) {
+  SimulationOptions options = options_for(Method::automatic);
+  options.tolerance = 1e-3;
+  const System system(hanging(false, kRelease));
+  Simulation simulation(system, system.rest_state(), options);
+  const Report report = simulation.run(kEnd);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  ASSERT_GE(report.switches.size(), 2u);
+  EXPECT_EQ(report.switches[1].time, kRelease);
+  EXPECT_EQ(report.time, kEnd);
+  EXPECT_NEAR(report.first.total(), 0.0, 1e-12);
+}
+
+TEST(ReleasedAnchor, IsGoneWhenTheRunBeginsLater) {
+  const System system(hanging(false, kRelease));
+  Simulation simulation(system, system.rest_state(0.3), options_for(Method::cash_karp));
+  ASSERT_EQ(simulation.run(0.5).stop, Stop::finished);
+  EXPECT_NEAR(simulation.state().y[2], -0.5 * kGravity * 0.04, 1e-6);
+}
+
+TEST(ReleasedAnchor, NeedsATime) {
+  EXPECT_EQ(test::place_of_refusal(hanging(false, std::nan(""))), "anchors[0].until");
+}
+
+}  // namespace
+}  // namespace tendril
