@@ -161,10 +161,16 @@ void add_rods(std::vector<Trial>& to) {
     });
   for (const double beta : {1e-6, 1e-4, 1e-2, 1.0})
     rod(with("viscosity", beta), 1e6, [=](Rod& r) { r.viscosity = beta; });
-  rod("edges and masses apart", 1e6, [](Rod& r) {
-    stiffen_every_second(r, 1e10);
-    lighten_every_second(r, 1e8);
-  });
+  for (const double beta : {0.0, 1e-3, 1.0}) {
+    rod(with("edges and masses apart, viscosity", beta), 1e6, [=](Rod& r) {
+      stiffen_every_second(r, 1e10);
+      lighten_every_second(r, 1e8);
+      r.viscosity = beta;
+    });
+    to.back().reference = 1e-5;
+  }
+  // Its work against viscosity is not summed up well enough for the energy to balance.
+  to.back().automatic_finishes = false;
 }
 
 std::vector<Trial> long_trials() {

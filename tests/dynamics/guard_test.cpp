@@ -4,6 +4,7 @@
 #include <tendril/dynamics/stability.h>
 
 #include <boost/numeric/odeint.hpp>
+#include <limits>
 
 #include "support/rods.h"
 
@@ -22,6 +23,8 @@ TEST(GuardStep, KeepsToItsLimits) {
   const GuardLimits only_step{1e-6, 1e9, 1.0};
   EXPECT_NEAR(guard_step(1e3, 0, 0, only_step) * 1e3, 0.44, 0.01);
   EXPECT_TRUE(std::isinf(guard_step(0, 1, 1, only_step)));
+  EXPECT_EQ(guard_step(1e200, 0, 1, only_step), 0.0);
+  EXPECT_EQ(guard_step(std::numeric_limits<double>::infinity(), 0, 0, only_step), 0.0);
   // Long runs share out the whole: y^5 T w / 7200 = limit.
   const GuardLimits whole{1e-6, 0.1, 60.0};
   const double y = guard_step(2e3, 0, 0, whole) * 2e3;

@@ -168,9 +168,9 @@ void to_nodes(const Neighbourhood& n, const Workspace& work, const ByEdges& b, c
 }  // namespace
 
 void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                    const Workspace& work, EdgeStiffness& to) {
+                    const Workspace& work, bool viscous, EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
-  SpringStiffness springs = spring_stiffness(model, i, reference, work);
+  SpringStiffness springs = spring_stiffness(model, i, reference, work, viscous);
   if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], springs);
   ByEdges edges = by_edges(n, work, springs);
   add_tangent_curvature(model, n, work, edges);
@@ -192,10 +192,125 @@ void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, co
   place(model, n, i, to);
 }
 
+namespace {
+
+/// Gradient of one thing that a spring sees, by the unit edge, and by tangent and angle of either node.
+struct Slope {
+  Vec3 e = Vec3::Zero();
+  Vec3 t[2] = {Vec3::Zero(), Vec3::Zero()};
+  double theta[2] = {0.0, 0.0};
+};
+
+std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Workspace& work) {
+  std::array<Slope, EdgeSlopes::kSprings> all;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Frame f = work.frame[i + side];
+    const EdgeAngles a = edge_angles(work.e[i], f);
+    Slope& l = all[2 * side];
+    l.e = f.x / a.cl;
+    l.t[side] = -a.z * l.e;
+    l.theta[side] = a.y / a.cl;
+    Slope& m = all[2 * side + 1];
+    m.e = f.y / a.cm;
+    m.t[side] = -a.z * m.e;
+    m.theta[side] = -a.x / a.cm;
+  }
+  const Vec3 ta = work.frame.z[i];
+  const Vec3 tb = work.frame.z[i + 1];
+  all[4].t[0] = all[4].t[1] = ta.cross(tb) / (1.0 + ta.dot(tb));
+  all[4].theta[0] = -1.0;
+  all[4].theta[1] = 1.0;
+  return all;
+}
+
+/// By the frame the first node is fixed to: phi = t x d + theta t turns t_0 by phi x t_0, theta_0 by phi .
+/// t_0.
+void ride(const Vec3& t, const Vec3& t0, Slope& s) {
+  const Vec3 turn = t0.cross(s.t[0]) + s.theta[0] * t0;
+  s.t[0] = turn.cross(t);
+  s.theta[0] = turn.dot(t);
+}
+
+/// Away from the reference the carried director spins by -((t_s x t) . dt) / (1 + t_s . t). It counts twice:
+/// the gradient is by (p, theta), and theta' has the connection term, whose change with t is the same again.
+Vec3 carried_spin(const Vec3& from, const Vec3& t) {
+  return 2.0 / (1.0 + from.dot(t)) * from.cross(t);
+}
+
+}  // namespace
+
+void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
+                 const Workspace& work, EdgeSlopes& to) {
+  const Neighbourhood n(model, rod, i);
+  std::array<Slope, EdgeSlopes::kSprings> all = slopes_of(i, work);
+  Vec3 spin[2];
+  for (std::size_t side = 0; side < 2; ++side)
+    spin[side] = carried_spin(reference.tangent[n.frame_of[side]], work.frame.z[n.frame_of[side]]);
+  for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
+    Slope& s = all[q];
+    if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], s);
+    Vec3 share[2];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Vec3 t = work.frame.z[n.frame_of[side]];
+      const Vec3 g = s.t[side] - s.theta[side] * spin[side];
+      share[side] = work.inverse_bisector[n.frame_of[side]] * (g - t.dot(g) * t);
+      to.angle[q][side] = s.theta[side];
+    }
+    for (Vec3& g : to.node[q]) g.setZero();
+    for (std::size_t x = 0; x < 4; ++x) {
+      if (!n.there[x]) continue;
+      Vec3 g = x == n.own ? s.e : Vec3::Zero();
+      for (std::size_t side = 0; side < 2; ++side)
+        if (x == n.before(side) || x == n.after(side)) g += share[side];
+      const Vec3 e = work.e[n.edge[x]];
+      const Vec3 along = work.inverse_length[n.edge[x]] * (g - e.dot(g) * e);
+      to.node[q][n.from(x)] -= along;
+      to.node[q][n.to(x)] += along;
+    }
+  }
+}
+
+void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, const EdgeSlopes& slopes,
+                       const EdgeSlopes& rates, TurnedResistance& to) {
+  const double stiffness[] = {model.bend_l[i], model.bend_m[i], model.bend_l[i + 1], model.bend_m[i + 1],
+                              model.twist[i]};
+  const Neighbourhood n(model, rod, i);
+  place(model, n, i, to.place);
+  const bool rides = n.rides;
+  for (std::size_t a = 0; a < 5; ++a) {
+    for (Mat3& k : to.k[a]) k.setZero();
+    for (std::size_t b = 0; b < 2; ++b) to.by_angle[a][b] = to.of_angle[b][a] = Vec3::Zero();
+  }
+  for (auto& row : to.angles) row[0] = row[1] = 0.0;
+  for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
+    // A deviation sees the edges of its own side and the edge between.
+    const std::size_t first = q == 2 || q == 3 ? 1 : 0;
+    const std::size_t end = q < 2 && !rides ? 3 : 5;
+    for (std::size_t a = first; a < end; ++a) {
+      const Vec3 g = stiffness[q] * slopes.node[q][a];
+      for (std::size_t b = first; b < end; ++b) to.k[a][b] += g * rates.node[q][b].transpose();
+      for (std::size_t b = 0; b < 2; ++b) to.by_angle[a][b] += rates.angle[q][b] * g;
+    }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double g = stiffness[q] * slopes.angle[q][a];
+      for (std::size_t b = first; b < end; ++b) to.of_angle[a][b] += g * rates.node[q][b];
+      for (std::size_t b = 0; b < 2; ++b) to.angles[a][b] += g * rates.angle[q][b];
+    }
+  }
+}
+
 Mat3 stretch_stiffness(const Model& model, std::size_t i, const Workspace& work) {
   const Vec3 e = work.e[i];
   const double tension = model.stretch[i] * (1.0 - model.rest_length[i] * work.inverse_length[i]);
   return (model.stretch[i] - tension) * e * e.transpose() + tension * Mat3::Identity();
+}
+
+Mat3 turned_pull(const Model& model, std::size_t i, const Workspace& work) {
+  const Vec3 e = work.e[i];
+  const Vec3 v = Vec3(work.v[i + 1]) - Vec3(work.v[i]);
+  const double along = e.dot(v);
+  const double k = model.viscosity[i] * model.stretch[i] * work.inverse_length[i];
+  return k * (e * (v - 2 * along * e).transpose() + along * Mat3::Identity());
 }
 
 namespace {

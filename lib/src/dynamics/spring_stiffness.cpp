@@ -83,15 +83,32 @@ void add_third(const Vec3& e, const Vec3& t, std::size_t side, double stiffness,
   }
 }
 
-void add_bending(const Model& model, std::size_t i, std::size_t side, const Workspace& work,
+/// How fast the two deviations at a side change; `spin` of its node.
+struct DeviationRates {
+  double l, m;
+};
+DeviationRates deviation_rates(const Frame& f, const EdgeAngles& at, const Vec3& e_rate, const Vec3& t_rate,
+                               double spin) {
+  return {(e_rate.dot(f.x) - f.x.dot(t_rate) * at.z + spin * at.y) / at.cl,
+          (e_rate.dot(f.y) - f.y.dot(t_rate) * at.z - spin * at.x) / at.cm};
+}
+
+void add_bending(const Model& model, std::size_t i, std::size_t side, double viscosity, const Workspace& work,
                  SpringStiffness& s) {
   const std::size_t node = i + side;
   const std::size_t end = 2 * i + side;
   const Vec3 e = work.e[i];
   const Frame f = work.frame[node];
   const EdgeAngles a = edge_angles(e, f);
-  add_deviation(along_l(f, a), side, model.bend_l[node], a.l - model.rest_l[end], a.x, a.cl, s);
-  add_deviation(along_m(f, a), side, model.bend_m[node], a.m - model.rest_m[end], a.y, a.cm, s);
+  double l = a.l - model.rest_l[end];
+  double m = a.m - model.rest_m[end];
+  if (viscosity > 0.0) {
+    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate[node], work.spin[node]);
+    l += viscosity * rate.l;
+    m += viscosity * rate.m;
+  }
+  add_deviation(along_l(f, a), side, model.bend_l[node], l, a.x, a.cl, s);
+  add_deviation(along_m(f, a), side, model.bend_m[node], m, a.y, a.cm, s);
   if (model.bend_t[node] > 0.0)
     add_third(e, f.z, side, model.bend_t[node], a.t, model.rest_t[end], a.st, a.z, s);
 }
@@ -148,12 +165,20 @@ Mat3 curvature_of_unit(const Vec3& n, double inverse_length, const Vec3& g) {
 }
 
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const Workspace& work) {
+                                 const Workspace& work, bool viscous) {
   SpringStiffness s;
-  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, work, s);
+  const double viscosity = viscous ? model.viscosity[i] : 0.0;
+  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, viscosity, work, s);
   const double raw = twist_angle(work.frame[i], work.frame[i + 1]);
   const double tau = reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI);
-  add_twist(model, i, work, tau - model.rest_twist[i], s);
+  double strain = tau - model.rest_twist[i];
+  if (viscosity > 0.0) {
+    const Vec3 ta = work.frame.z[i];
+    const Vec3 tb = work.frame.z[i + 1];
+    const Vec3 turning = Vec3(work.t_rate[i]) + Vec3(work.t_rate[i + 1]);
+    strain += viscosity * (work.spin[i + 1] - work.spin[i] + ta.cross(tb).dot(turning) / (1.0 + ta.dot(tb)));
+  }
+  add_twist(model, i, work, strain, s);
   return s;
 }
 

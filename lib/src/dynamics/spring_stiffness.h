@@ -22,9 +22,11 @@ struct SpringStiffness {
   double theta0_theta1 = 0.0;
 };
 
-/// Second derivatives of the energy of edge i; needs its kinematics.
+/// Second derivatives of the energy of edge i; needs its kinematics. With `viscous` each slope is that of
+/// strain
+/// + beta strain', as the forces are, which needs the rates.
 SpringStiffness spring_stiffness(const System::Model& model, std::size_t i, const State& reference,
-                                 const System::Workspace& work);
+                                 const System::Workspace& work, bool viscous);
 
 /// sum k grad q grad q^T over the two deviations at either end and the twist of edge i.
 SpringStiffness spring_resistance(const System::Model& model, std::size_t i, const System::Workspace& work);

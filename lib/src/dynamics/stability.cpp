@@ -52,6 +52,7 @@ double guard_step(double frequency, double alpha, double beta, const GuardLimits
   if (!(frequency > 0.0)) return std::numeric_limits<double>::infinity();
   // Upwards from a step that is surely allowed, in steps of a tenth; then bisection of the last one.
   const double fastest = frequency + alpha + beta * frequency * frequency;
+  if (!std::isfinite(fastest)) return 0.0;
   double low = 0.1 / fastest;
   while (!allowed(frequency, alpha, beta, limits, low) && low > 1e-9 / fastest) low *= 0.25;
   double high = low;

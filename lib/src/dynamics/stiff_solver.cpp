@@ -9,6 +9,7 @@
 #include "spring_stiffness.h"
 #include "stiffness_elements.h"
 #include "turning.h"
+#include "viscous_turning.h"
 
 namespace tendril {
 namespace {
@@ -139,6 +140,7 @@ class BlockSolver : public StiffSolver {
       by_u_.emplace(pattern_, false);
       to_u_.emplace(*by_u_);
     }
+    if (resists(model_)) turning_.emplace(model_);
     if (needs_differences(model_)) differences_.emplace(model_, pattern_);
     lay_out();
   }
@@ -148,13 +150,16 @@ class BlockSolver : public StiffSolver {
     if (to_u_) to_u_->restart();
     double energy = 0.0;
     if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
-    visit_stiffness(model_, state, work_, -1.0, to_x_);
+    const bool viscous = turning_.has_value();
+    if (viscous && !add_viscous_gradient(state)) return -1;
+    visit_stiffness(model_, state, work_, viscous, -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
-      if (resists(model_)) visit_resistance(model_, work_, *to_u_);
+      if (viscous) visit_resistance(model_, work_, *to_u_);
       // The rates of the frames are needed from here on.
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
       add_turning();
+      if (turning_ && !turning_->add(state, rate, work_, to_x_)) return -1;
     }
     if (loaded_) {
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
@@ -297,6 +302,17 @@ class BlockSolver : public StiffSolver {
     }
   }
 
+  /// After it the workspace holds the gradient with its viscous part, and the rates.
+  bool add_viscous_gradient(const State& state) {
+    double heat = 0.0;
+    if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return false;
+    if (!elastic(model_, state, true, work_, heat).ok()) return false;
+    pull_back(model_, work_);
+    for (std::size_t i = 0; i < model_.nodes; ++i)
+      if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = work_.g_spin[i];
+    return true;
+  }
+
   /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle
   /// itself also the inertia.
   struct Link {
@@ -359,6 +375,7 @@ class BlockSolver : public StiffSolver {
   std::vector<Held> held_;
   std::vector<Eigen::Index> place_, angle_;     ///< per pivot, of its node in p, and in theta or -1
   std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
+  std::optional<ViscousTurning> turning_;
   Eigen::VectorXd gradient_;
 };
 

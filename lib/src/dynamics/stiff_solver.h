@@ -17,9 +17,9 @@ namespace tendril {
 /// and only half of it is kept.
 ///
 /// Exact are the derivatives of the springs, of the gyroscopic force, of the connection term, and those that
-/// external forces give of their own; other external forces that depend on the state are differentiated by
-/// differences, coloured so that nodes that share no row share an evaluation. Left out is the change of the
-/// viscous forces' directions.
+/// external forces give of their own; how fast the directions of viscous springs turn is taken by a central
+/// difference along the motion. Other external forces that depend on the state are differentiated by
+/// differences, coloured so that nodes that share no row share an evaluation.
 class StiffSolver {
  public:
   virtual ~StiffSolver() = default;

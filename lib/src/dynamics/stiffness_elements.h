@@ -27,6 +27,25 @@ void visit(const EdgeStiffness& e, double scale, Sink& sink) {
       if (e.angle_feels[a]) sink.angles(e.angle[a], e.angle[b], scale * e.angles[a][b]);
 }
 
+/// The same of a matrix that is not symmetric.
+template <class Sink>
+void visit(const TurnedResistance& e, double scale, Sink& sink) {
+  const EdgeStiffness& at = e.place;
+  for (std::size_t a = 0; a < 5; ++a) {
+    if (at.node[a] == EdgeStiffness::kNone) continue;
+    for (std::size_t b = 0; b < 5; ++b)
+      if (at.node[b] != EdgeStiffness::kNone && at.node_feels[a])
+        sink.block(at.node[a], at.node[b], Mat3(scale * e.k[a][b]));
+    for (std::size_t b = 0; b < 2; ++b) {
+      if (at.node_feels[a]) sink.column(at.node[a], at.angle[b], Vec3(scale * e.by_angle[a][b]));
+      if (at.angle_feels[b]) sink.row(at.angle[b], at.node[a], Vec3(scale * e.of_angle[b][a]));
+    }
+  }
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b)
+      if (at.angle_feels[a]) sink.angles(at.angle[a], at.angle[b], scale * e.angles[a][b]);
+}
+
 /// Second derivatives by the vector from node i to the next.
 template <class Sink>
 void visit_edge(std::size_t i, const Mat3& k, double scale, Sink& sink) {
@@ -54,12 +73,12 @@ void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sin
 /// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
 template <class Sink>
 void visit_stiffness(const System::Model& model, const State& reference, const System::Workspace& work,
-                     double scale, Sink& sink) {
+                     bool viscous, double scale, Sink& sink) {
   EdgeStiffness edge;
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       if (model.has_twist(i)) {
-        edge_stiffness(model, rod, i, reference, work, edge);
+        edge_stiffness(model, rod, i, reference, work, viscous, edge);
         visit(edge, scale, sink);
         continue;
       }

@@ -13,8 +13,7 @@ namespace tendril {
 /// with x' = u + c(x), M u' = F, C and F_x, F_u their derivatives: the second-order form for the positions
 /// and angles alone, three unknowns a node or four with twist, eliminated from tips to roots and children to
 /// parents without fill. Springs and their viscous parts enter with exact derivatives; what is left by
-/// differences. How the directions of the viscous forces change is left out: that lowers the order of fast,
-/// strongly viscous motions.
+/// differences.
 ///
 /// It damps oscillations it does not resolve, so energy is lost to it where Cash-Karp would need its guard.
 /// Time and memory of a step: O(nodes), on trees too.

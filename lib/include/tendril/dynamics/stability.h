@@ -15,8 +15,8 @@ struct GuardLimits {
 
 /// Largest step h at which no oscillator x'' + (alpha + beta w^2) x' + w^2 x = 0 with w <= frequency is
 /// amplified beyond the limits. Undamped, |R(iy)| - 1 = y^6 / 7200: 1e-6 a step is h w = 0.44. Infinite for
-/// frequency 0. \param alpha  mass-proportional damping [1 / time], \param beta  Kelvin-Voigt viscosity
-/// [time]
+/// frequency 0; 0 where frequency or beta w^2 is beyond numbers. \param alpha  mass-proportional damping [1 /
+/// time], \param beta  Kelvin-Voigt viscosity [time]
 double guard_step(double frequency, double alpha, double beta, const GuardLimits& limits);
 
 }  // namespace tendril
