@@ -16,8 +16,8 @@
 /// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
 /// that contradicts itself. A face that names a vertex twice is accepted.
 ///
-/// With `notes`, faces that follow the last one that a text OFF's header counts are kept, and the notes say so with
-/// place and number; without, nobody would be told, and they are refused as left over.
+/// With `notes`, faces that follow the last one that a text OFF's header counts are kept, and the notes say
+/// so with place and number; without, nobody would be told, and they are refused as left over.
 ///
 /// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
 /// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
