@@ -167,7 +167,7 @@ void add_rods(std::vector<Trial>& to) {
       lighten_every_second(r, 1e8);
       r.viscosity = beta;
     });
-    to.back().reference = 1e-5;
+    to.back().reference = beta > 0.0 ? 1e-6 : 1e-5;
   }
   // Its work against viscosity is not summed up well enough for the energy to balance.
   to.back().automatic_finishes = false;

@@ -13,7 +13,7 @@ namespace tendril {
 /// How a run is controlled. Lengths, velocities, angles and spins have error scales of their own: the rods'
 /// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
 /// and speed / l. The speed of a mass lighter than half the mean of its rod counts by the square root of the
-/// ratio: so much less energy it carries.
+/// ratio, for so much less energy it carries, but at least by a hundredth.
 struct SimulationOptions {
   Method method = Method::cash_karp;
   /// Makes a stepper of one's own, in place of the method. With a fixed step it may be any Stepper; without
