@@ -38,9 +38,8 @@ Controller::Controller(const System& system, State start, const SimulationOption
     for (const double m : rod.mass) mass += m;
     for (const double m : rod.mass)
       speed_share_.push_back(
-          mass > 0.0
-              ? std::clamp(std::sqrt(2.0 * m * static_cast<double>(rod.mass.size()) / mass), 0.01, 1.0)
-              : 1.0);
+          mass > 0.0 ? std::clamp(std::sqrt(2.0 * m * static_cast<double>(rod.mass.size()) / mass), 0.01, 1.0)
+                     : 1.0);
   }
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
