@@ -114,7 +114,7 @@ TENDRIL_INLINE bool bend_nodes(const Model& model, std::size_t from, std::size_t
     double heat = 0.0;
     const bool near_first = bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
     const bool near_second = bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
-    far |= near_first & near_second ? 0 : 1;
+    far |= (near_first & near_second) ? 0 : 1;
     before.put(i, to_before);
     after.put(i, to_after);
     to_tangent.put(i, tangent);
