@@ -56,10 +56,10 @@ TEST(Judge, SeesWhatDoesNotHold) {
     return holds(quantity);
   };
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].error = 1.01e-2; }));
-  EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].error = NAN; }));
+  EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].error = std::nan(""); }));
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[0].error = 5e-2; }));
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].extrapolated = -2e-3; }));
-  EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].extrapolated = NAN; }));
+  EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].extrapolated = std::nan(""); }));
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].extrapolated.reset(); }));
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows[1].n = 17; }));
   EXPECT_FALSE(spoilt([](Quantity& q) { q.rows.pop_back(); }));

@@ -125,7 +125,7 @@ std::string picture(const Figure& figure, const Axis& x, const Axis& y, const st
 }
 
 struct Box {
-  double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
+  double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL};
 };
 Box box_of(const Figure& figure) {
   Box box;

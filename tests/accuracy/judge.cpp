@@ -21,7 +21,7 @@ const Row* row_at(const Quantity& quantity, int n) {
 
 /// Smallest and largest order of the rows it is asked for.
 struct Orders {
-  double least = INFINITY, most = -INFINITY;
+  double least = HUGE_VAL, most = -HUGE_VAL;
   bool finite = true;
   const Row* last = nullptr;
   std::string words() const {
@@ -53,8 +53,8 @@ std::vector<Verdict> judge(const Quantity& quantity) {
   for (const Limit& limit : quantity.limits) {
     const Row* row = row_at(quantity, limit.n);
     const bool holds = row && std::abs(row->error) <= limit.error;
-    out.push_back(
-        {quantity.name, row ? *row : Row{limit.n, NAN, NAN}, number("%.1e", limit.error), "", holds});
+    out.push_back({quantity.name, row ? *row : Row{limit.n, std::nan(""), std::nan("")},
+                   number("%.1e", limit.error), "", holds});
   }
   if (quantity.order) {
     const Order& asked = *quantity.order;
@@ -63,11 +63,12 @@ std::vector<Verdict> judge(const Quantity& quantity) {
                        found.most <= asked.expected + asked.within;
     const std::string wanted = number("%.1f", asked.expected) + " +- " + number("%.2f", asked.within);
     out.push_back({quantity.name + ", order from " + std::to_string(asked.from),
-                   found.last ? *found.last : Row{asked.from, NAN, NAN}, wanted, found.words(), holds});
+                   found.last ? *found.last : Row{asked.from, std::nan(""), std::nan("")}, wanted,
+                   found.words(), holds});
   }
   if (quantity.extrapolated) {
     const Limit& asked = *quantity.extrapolated;
-    Row worst{asked.n, NAN, -1.0};
+    Row worst{asked.n, std::nan(""), -1.0};
     bool holds = true;
     for (const Row& row : quantity.rows) {
       if (row.n < asked.n || !row.extrapolated) continue;
