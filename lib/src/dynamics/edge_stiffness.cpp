@@ -321,10 +321,9 @@ struct ByCosine {
 };
 ByCosine by_cosine(double stiffness, double sine, double z) {
   const bool near = z > 0.0 && sine * sine <= lanes::kWideSquare;
-  const double ratio = near ? lanes::wide_asin_ratio(sine * sine) : std::atan2(sine, z) / sine;
-  const double angle = ratio * sine;
+  const double angle = near ? sine * lanes::wide_asin_ratio(sine * sine) : std::atan2(sine, z);
   if (sine > 1e-4) {
-    const double g = stiffness * ratio;
+    const double g = stiffness * angle / sine;
     return {-g, (stiffness - g * z) / (sine * sine)};
   }
   // angle / sine = 1 + angle^2 / 6 + ..., so the curvature tends to K / 3 (1 + 2 angle^2 / 5).
