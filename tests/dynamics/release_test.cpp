@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
+#include <tendril/dynamics/statics.h>
 
 #include "support/rods.h"
 
@@ -122,6 +123,38 @@ TEST(ReleasedAnchor, IsGoneWhenTheRunBeginsLater) {
   Simulation simulation(system, system.rest_state(0.3), options_for(Method::cash_karp));
   ASSERT_EQ(simulation.run(0.5).stop, Stop::finished);
   EXPECT_NEAR(simulation.state().y[2], -0.5 * kGravity * 0.04, 1e-6);
+}
+
+TEST(ReleasedAnchor, IsGoneForStaticsOfTheSystemFromThere) {
+  Scene scene = hanging(false, HUGE_VAL);
+  scene.anchors.push_back({.rod = 0, .node = 10, .until = kRelease});
+  const System freed(scene, kRelease);
+  scene.anchors.pop_back();
+  scene.twist = Scene::Twist::everywhere;
+  const System without(scene);
+  const auto tip = [](const System& system) {
+    const Equilibrium found = find_equilibrium(system, system.rest_state());
+    EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+    return test::at(found.state.y, 10);
+  };
+  EXPECT_LT(tip(without).z(), -0.01);
+  EXPECT_LT((tip(freed) - tip(without)).norm(), 1e-7);
+}
+
+TEST(ReleasedAnchor, ThatLeavesAFoldEndsTheRunWithItsReason) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(2, 1e3, 0.01));
+  scene.anchors.push_back({.rod = 0, .node = 1, .until = 1e-9});
+  const System system(scene);
+  State folded = system.rest_state();
+  folded.y.segment<3>(6) = folded.y.segment<3>(0);
+  ASSERT_TRUE(system.rebase(folded, *system.make_workspace()).ok());
+  Simulation simulation(system, folded, options_for(Method::cash_karp));
+  const Report report = simulation.run(1.0);
+  EXPECT_EQ(report.stop, Stop::not_evaluable);
+  EXPECT_NE(report.reason.find("lets go"), std::string::npos) << report.reason;
+  EXPECT_EQ(simulation.state().time, 1e-9);
+  EXPECT_EQ(simulation.pairs().size(), 1U);
 }
 
 TEST(ReleasedAnchor, NeedsATime) {

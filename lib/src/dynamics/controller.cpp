@@ -328,8 +328,8 @@ void Controller::cancel() {
   if (!ended_ && state_.time < until_) stop(Stop::cancelled, sentence("cancelled at time ", state_.time));
 }
 
-void Controller::refuse_release(double time) {
-  stop(Stop::not_evaluable, sentence("at time ", time, " what lets go leaves a node without a frame"));
+void Controller::refuse_release() {
+  stop(Stop::not_evaluable, sentence("at time ", state_.time, " what lets go leaves a node without a frame"));
 }
 
 void Controller::stop(Stop why, std::string reason) {

@@ -21,7 +21,7 @@ class Controller {
   /// One accepted step, ending at `target` if it reaches that far. False when the run has to stop.
   bool step_towards(double target);
   void cancel();
-  void refuse_release(double time);
+  void refuse_release();
 
   const State& state() const { return state_; }
   System::Workspace& workspace() { return *work_; }

@@ -157,9 +157,8 @@ TENDRIL_LANES bool finite(const double* values, std::size_t count) {
 void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
   take_apart(y.data(), model.nodes, work.p);
   take_apart(y.data() + model.v_begin(), model.nodes, work.v);
-  for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
-    const Anchor& anchor = model.scene.anchors[a];
-    if (!model.acts(anchor)) continue;
+  for (std::size_t a = 0; a < model.anchors.size(); ++a) {
+    const Anchor& anchor = model.anchors[a];
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     work.pose[a] = anchor.motion
                        ? anchor.motion(t)
@@ -190,9 +189,9 @@ void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
 }
 
 void take_held_frames(const Model& model, Workspace& work) {
-  for (std::size_t a = 0; a < model.scene.anchors.size(); ++a) {
-    const Anchor& anchor = model.scene.anchors[a];
-    if (!anchor.holds_frame || !model.acts(anchor)) continue;
+  for (std::size_t a = 0; a < model.anchors.size(); ++a) {
+    const Anchor& anchor = model.anchors[a];
+    if (!anchor.holds_frame) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     const AnchorPose& pose = work.pose[a];
     work.frame.set(i, pose.frame);
@@ -264,7 +263,7 @@ bool all_finite(const Eigen::VectorXd& values) {
   return finite(values.data(), static_cast<std::size_t>(values.size()));
 }
 
-System::Workspace::Workspace(const Model& model) : pose(model.scene.anchors.size()), frame(model.nodes) {
+System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()), frame(model.nodes) {
   const std::size_t n = model.nodes;
   for (auto* vectors : {&p, &v, &e, &e_rate, &t_rate, &g_before, &g_after, &g_bisector, &g_tangent,
                         &twist_tangent, &edge_force, &force})

@@ -141,7 +141,7 @@ void System::Model::flatten_rest_angles(const NodeRange& range) {
 }
 
 void System::Model::place_anchors() {
-  anchor_index.assign(nodes, -1);
+  anchored.assign(nodes, 0);
   held_position.assign(nodes, 0);
   held_frame.assign(nodes, 0);
   for (std::size_t a = 0; a < scene.anchors.size(); ++a) {
@@ -153,14 +153,15 @@ void System::Model::place_anchors() {
     if (anchor.node >= range.count)
       throw InvalidInput(member("anchors", a, "node"), std::to_string(anchor.node),
                          "less than " + std::to_string(range.count));
-    int& slot = anchor_index[range.first + anchor.node];
-    if (slot >= 0)
+    const std::size_t node = range.first + anchor.node;
+    if (anchored[node])
       throw InvalidInput(member("anchors", a, "node"), "anchored twice", "at most one anchor a node");
-    slot = static_cast<int>(a);
+    anchored[node] = 1;
     if (std::isnan(anchor.until)) throw InvalidInput(member("anchors", a, "until"), "not a number", "a time");
-    if (!acts(anchor)) continue;
-    held_position[range.first + anchor.node] = anchor.holds_position;
-    held_frame[range.first + anchor.node] = anchor.holds_frame;
+    if (anchor.until <= from) continue;
+    anchors.push_back(anchor);
+    held_position[node] = anchor.holds_position;
+    held_frame[node] = anchor.holds_frame;
   }
 }
 
@@ -181,7 +182,7 @@ void System::Model::place_joints() {
     if (ride_index[joint.child] >= 0) refuse("child", "joined twice", "at most one parent");
     const std::size_t root = rods[joint.child].first;
     const std::size_t parent = rods[joint.parent].first + joint.node;
-    if (anchor_index[root] >= 0) refuse("child", "its first node is anchored", "a free first node");
+    if (anchored[root]) refuse("child", "its first node is anchored", "a free first node");
     const double length =
         (rest_p[root + 1] - rest_p[root]).norm() * static_cast<double>(rods[joint.child].count);
     if (!((rest_p[root] - rest_p[parent]).norm() <= 1e-9 * length))

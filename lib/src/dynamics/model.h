@@ -13,7 +13,8 @@ struct System::Model {
   Model(Scene description, double since);
 
   Scene scene;
-  double from;  ///< anchors that let go by then hold nothing
+  double from;                  ///< the time from which this holds
+  std::vector<Anchor> anchors;  ///< those of the scene that have not let go by then
   std::vector<NodeRange> rods;
   std::vector<std::size_t> order;  ///< of the rods, parents before their children
   std::vector<std::size_t> seed;  ///< per rod, the node that its directors follow where it has no twist state
@@ -28,7 +29,7 @@ struct System::Model {
   std::vector<double> moved_mass;                   ///< mass with that of the roots merged into the node
   std::vector<Vec3> offset;                         ///< (0, r a, r b): q - p in the rest node frame
   std::vector<int> twist_index;                     ///< place among the twist states, -1 where left out
-  std::vector<int> anchor_index;                    ///< into scene.anchors, -1 where there is none
+  std::vector<char> anchored;                       ///< named by an anchor of the scene
   std::vector<char> held_position, held_frame;      ///< by an anchor, or by riding on a parent
   std::vector<char> begins, ends;                   ///< a rod
   std::vector<double> inverse_mass;                 ///< of what moves with the node; 0 where it is held
@@ -90,7 +91,6 @@ struct System::Model {
   bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
   bool has_before(std::size_t node) const { return begins[node] == 0; }
   bool has_after(std::size_t node) const { return ends[node] == 0; }
-  bool acts(const Anchor& anchor) const { return anchor.until > from; }
   const Ride* ride_of(std::size_t rod) const {
     return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }

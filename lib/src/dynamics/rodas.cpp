@@ -39,7 +39,7 @@ struct Rodas::Implementation {
       : system(s), work(s.make_workspace()), solver(make_stiff_solver(s, *work)) {
     const System::Model& model = s.model();
     for (const auto& force : s.scene().forces) works = works || !force->has_energy();
-    for (const Anchor& anchor : s.scene().anchors) moves = moves || (anchor.motion && model.acts(anchor));
+    for (const Anchor& anchor : model.anchors) moves = moves || anchor.motion;
     for (const System::Model::Segment& segment : model.segments) resists = resists || segment.viscous;
     for (const Joint& joint : s.scene().joints) moves = moves || !joint.reaction;
     works = works || moves || resists || model.damped;

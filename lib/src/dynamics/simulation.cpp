@@ -88,7 +88,7 @@ struct Simulation::Implementation {
       if (std::isfinite(anchor.until)) releases.push_back(anchor.until);
     std::sort(releases.begin(), releases.end());
     const bool released = !releases.empty() && releases.front() <= start.time;
-    if (released) lay_out(start.time);
+    if (released) system = lay_out(start.time);
     controller = std::make_unique<Controller>(*system, std::move(start), o);
     const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r)
@@ -107,9 +107,9 @@ struct Simulation::Implementation {
     return fits[r].solve(Points(q).subspan(range.first, range.count));
   }
 
-  void lay_out(double from) {
+  const System* lay_out(double from) {
     laid_out.push_back(std::make_unique<const System>(system->scene(), from));
-    system = laid_out.back().get();
+    return laid_out.back().get();
   }
 
   double next_release() const {
@@ -126,9 +126,10 @@ struct Simulation::Implementation {
       state.tangent[i] = frames[i].z;
       state.director[i] = frames[i].y;
     }
-    lay_out(state.time);
-    if (!system->rebase(state, *system->make_workspace()).ok()) return false;
-    controller = std::make_unique<Controller>(*system, std::move(state), *controller);
+    const System* freed = lay_out(state.time);
+    if (!freed->rebase(state, *freed->make_workspace()).ok()) return false;
+    controller = std::make_unique<Controller>(*freed, std::move(state), *controller);
+    system = freed;
     laid_out.erase(laid_out.begin(), laid_out.end() - 1);
     controller->begin(until);
     return true;
@@ -139,9 +140,8 @@ struct Simulation::Implementation {
     const double next = next_release();
     if (!controller->step_towards(std::min(target, next))) return false;
     if (controller->state().time < next) return true;
-    const double time = controller->state().time;
     if (release(until)) return true;
-    controller->refuse_release(time);
+    controller->refuse_release();
     return false;
   }
 

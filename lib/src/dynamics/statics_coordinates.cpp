@@ -45,7 +45,7 @@ void StaticCoordinates::hold() {
   held_position_.assign(n, 0);
   held_frame_.assign(n, 0);
   anchor_.assign(n, nullptr);
-  for (const Anchor& anchor : system_.scene().anchors) {
+  for (const Anchor& anchor : system_.model().anchors) {
     const std::size_t node = system_.rods()[anchor.rod].first + anchor.node;
     held_position_[node] = anchor.holds_position;
     held_frame_[node] = anchor.holds_frame;

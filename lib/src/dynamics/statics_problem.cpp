@@ -16,6 +16,7 @@ StaticProblem::StaticProblem(const System& system)
       loads_(system, coordinates_),
       conservative_(loads_.conservative()) {
   for (const Joint& joint : system.scene().joints) conservative_ = conservative_ && joint.reaction;
+  // With what has let go, so that the state is laid out alike.
   Scene turning = system.scene();
   bool any = false;
   for (Anchor& anchor : turning.anchors) {
@@ -73,7 +74,7 @@ Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time,
   if (const Evaluation e = bent(at.state.time, before); !e.ok()) return e;
   if (const Evaluation e = bent(there.time, after); !e.ok()) return e;
   if (const Evaluation e = loads_.add(there, loads, energy, *work_); !e.ok()) return e;
-  for (const Anchor& anchor : system_.scene().anchors) {
+  for (const Anchor& anchor : system_.model().anchors) {
     if (!anchor.motion || !anchor.holds_position || elastic_.cols() != at.gradient.size()) continue;
     const auto node = static_cast<Eigen::Index>(system_.rods()[anchor.rod].first + anchor.node);
     const Vec3 move = anchor.motion(there.time).position - anchor.motion(at.state.time).position;

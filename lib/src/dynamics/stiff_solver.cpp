@@ -82,7 +82,7 @@ bool needs_differences(const Model& model) {
 }
 
 bool depends_on_time(const Model& model) {
-  for (const Anchor& anchor : model.scene.anchors)
+  for (const Anchor& anchor : model.anchors)
     if (anchor.motion) return true;
   for (const auto& force : model.scene.forces)
     if (force->depends_on_time()) return true;
