@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <limits>
-#include "model.h"
 
+#include "model.h"
 #include "statics_newton.h"
 #include "words.h"
 
