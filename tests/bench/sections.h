@@ -1,16 +1,11 @@
 #pragma once
 
+#include "bench/command_line.h"
 #include "bench/contest.h"
-#include "bench/output.h"
 
 /// The parts of the bench. Each prints its tables and returns them as JSON; facts that do not hold (of
 /// accuracy, never of time) are added to `broken`.
 namespace tendril::bench {
-
-struct Settings {
-  bool quick = false;
-  std::vector<std::string> broken;
-};
 
 /// The machine's limits and the cost of the equations per node.
 OrderedJson right_hand_side(const Settings& settings);

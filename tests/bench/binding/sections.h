@@ -5,15 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/output.h"
+#include "bench/command_line.h"
 
 namespace tendril::bench {
-
-struct Settings {
-  bool quick = false;
-  std::string meshes;               ///< folder of the meshes of libcgal-demo
-  std::vector<std::string> broken;  ///< what no machine's speed can excuse
-};
 
 OrderedJson update_section(Settings& settings);
 OrderedJson transpose_section(Settings& settings);
