@@ -19,15 +19,16 @@ CurvePair pair_through(const std::vector<Vec3>& p, const std::vector<Vec3>& rest
   return {fit.knots(), fit.solve(p), fit.solve(q)};
 }
 
+std::vector<Vec3> spine() {
+  std::vector<Vec3> p;
+  for (int k = 0; k <= 10; ++k) p.emplace_back(0, -1.0 + 0.2 * k, 0);
+  return p;
+}
+
 /// A body along y, 0.4 thick, whose arm of 0.08 leaves it at the top and hangs down beside it: the flank is
 /// nearer to the arm's axis than to the body's.
 class Armed : public ::testing::Test {
  protected:
-  static std::vector<Vec3> spine() {
-    std::vector<Vec3> p;
-    for (int k = 0; k <= 10; ++k) p.emplace_back(0, -1.0 + 0.2 * k, 0);
-    return p;
-  }
   /// \param lift  by how much the forearm is turned outwards about the elbow [rad]
   static std::vector<Vec3> arm(double lift = 0.0) {
     std::vector<Vec3> p;
@@ -133,11 +134,6 @@ TEST_F(Armed, DoesNotMindWhichWayFacesLook) {
 /// Here the arm hangs down from a shoulder: its skin and the flank's run into each other in the armpit.
 class Hanging : public ::testing::Test {
  protected:
-  static std::vector<Vec3> spine() {
-    std::vector<Vec3> p;
-    for (int k = 0; k <= 10; ++k) p.emplace_back(0, -1.0 + 0.2 * k, 0);
-    return p;
-  }
   static std::vector<Vec3> arm(double lift = 0.0) {
     std::vector<Vec3> p{{0, 0.8, 0}, {0.2, 0.8, 0}, {0.4, 0.8, 0}, {0.55, 0.75, 0}};
     for (int k = 1; k <= 6; ++k)
