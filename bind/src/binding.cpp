@@ -39,12 +39,10 @@ void project(const CurvePair& rest, Points points, int threads, Binding::Layout&
   const CurveProjector projector(rest.primary());
   layout.entries.resize(points.size());
   in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-    double hint = 0.5 * (rest.knots().start() + rest.knots().end());
+    const std::vector<Projection> nearest = projector.nearest(points.subspan(begin, end - begin));
     for (std::size_t i = begin; i < end; ++i) {
-      const Projection nearest = projector.nearest(points[i], hint);
-      hint = nearest.t;
-      found.set(i, nearest);
-      layout.entries[i] = to_axial(rest, nearest.t, points[i]);
+      found.set(i, nearest[i - begin]);
+      layout.entries[i] = to_axial(rest, nearest[i - begin].t, points[i]);
     }
   });
 }

@@ -7,8 +7,8 @@
 #include "curve/minima_cases.h"
 #include "support/exact_minima.h"
 
-// All local minima on every curve of minima_cases.h against exact root isolation. TENDRIL_SWEEP_POINTS is the
-// number of points over all curves.
+// All local minima, and the nearest, on every curve of minima_cases.h against exact root isolation; the
+// nearest of many at once must be the same. TENDRIL_SWEEP_POINTS is the number of points over all curves.
 namespace tendril {
 namespace {
 
@@ -24,7 +24,7 @@ constexpr int kCurves = 62;
 
 struct Tally {
   long points = 0, minima = 0, missed = 0, invented = 0, clusters = 0, needless_clusters = 0,
-       wrong_nearest = 0, wrong_distance = 0;
+       wrong_nearest = 0, wrong_distance = 0, other_in_batch = 0;
   double nearest_us = 0.0, all_us = 0.0;
 };
 
@@ -97,6 +97,17 @@ double microseconds(F&& f) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Points that were searched one by one, all at once.
+void judge_batch(const CurveProjector& projector, std::vector<Vec3>& points, std::vector<Projection>& alone,
+                 Tally& tally) {
+  const std::vector<Projection> many = projector.nearest(points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    tally.other_in_batch += !(many[i].t == alone[i].t && many[i].distance == alone[i].distance &&
+                              many[i].gap == alone[i].gap && many[i].kind == alone[i].kind);
+  points.clear();
+  alone.clear();
+}
+
 class EveryCurve : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Curves, EveryCurve, testing::Range(0, kCurves));
 
@@ -109,11 +120,15 @@ TEST_P(EveryCurve, HasTheMinimaThatExactArithmeticFinds) {
   Random random(static_cast<std::uint64_t>(GetParam()));
   Tally tally;
   std::vector<LocalMinimum> found;
+  std::vector<Vec3> points;
+  std::vector<Projection> alone;
   for (int i = 0; i < kPoints / kCurves + 1; ++i) {
     Vec3 p = source.next();
     if (i % 11 == 0) p.y() = 0.0;
     const double band = i % 3 == 0 ? 1e-3 : random.uniform(0.0, 3.0);
-    tally.nearest_us += microseconds([&] { (void)projector.nearest(p); });
+    points.push_back(p);
+    tally.nearest_us += microseconds([&] { alone.push_back(projector.nearest(p)); });
+    if (points.size() == 5000) judge_batch(projector, points, alone, tally);
     tally.all_us += microseconds([&] { found = projector.all(p, band); });
     const double nearest = found.front().distance;
     const double size = extent + nearest + p.norm();
@@ -121,6 +136,7 @@ TEST_P(EveryCurve, HasTheMinimaThatExactArithmeticFinds) {
     judge(named.curve, p, size, band, found, all, tally);
     ++tally.points;
   }
+  judge_batch(projector, points, alone, tally);
   const double count = static_cast<double>(tally.points);
   std::printf("%-32s %8ld points %8ld minima %5ld clusters  %.2f us nearest, %.2f us all\n",
               named.name.c_str(), tally.points, tally.minima, tally.clusters, tally.nearest_us / count,
@@ -130,6 +146,7 @@ TEST_P(EveryCurve, HasTheMinimaThatExactArithmeticFinds) {
   EXPECT_EQ(tally.needless_clusters, 0);
   EXPECT_EQ(tally.wrong_nearest, 0);
   EXPECT_EQ(tally.wrong_distance, 0);
+  EXPECT_EQ(tally.other_in_batch, 0);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace tendril {
-namespace {
 
 Capsule around(Points points) {
   Capsule capsule{points.front(), points.back() - points.front(), 0.0, 0.0};
@@ -13,6 +12,21 @@ Capsule around(Points points) {
   double radius = 0.0;
   for (const Vec3& p : points) radius = std::max(radius, capsule.distance(p));
   capsule.radius = radius;
+  return capsule;
+}
+
+namespace {
+
+/// The same for a Bezier piece of degree n, where the curve allows a smaller radius than its control points
+/// P_i: c(t) differs from the segment's point at t by sum_i B_i(t) (P_i - (start + i / n axis)), and the
+/// weights of the inner i sum up to 1 - 2^(1 - n) at most.
+Capsule around_piece(Points points) {
+  Capsule capsule = around(points);
+  const double n = static_cast<double>(points.size() - 1);
+  double most = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    most = std::max(most, (points[i] - capsule.start - static_cast<double>(i) / n * capsule.axis).norm());
+  capsule.radius = std::min(capsule.radius, (1.0 - std::exp2(1.0 - n)) * most * (1.0 + 1e-15));
   return capsule;
 }
 
@@ -25,9 +39,12 @@ CapsuleTree::CapsuleTree(Points points, std::size_t per_piece) {
 
 void CapsuleTree::build(Points points, std::size_t per_piece, std::size_t first) {
   const std::size_t node = nodes_.size();
-  nodes_.push_back({around(points), 0, first});
   const std::size_t count = points.size() / per_piece;
-  if (count == 1) return;
+  nodes_.push_back({count == 1 ? around_piece(points) : around(points), 0, first});
+  if (count == 1) {
+    leaves_.push_back(node);
+    return;
+  }
   const std::size_t half = count / 2;
   build(points.first(half * per_piece), per_piece, first);
   nodes_[node].right = nodes_.size();

@@ -26,12 +26,18 @@ struct Capsule {
   }
 };
 
+/// The capsule about the segment from the first point to the last that holds all.
+Capsule around(Points points);
+
 /// Binary tree of capsules over consecutive pieces of a curve, stored depth first: a node's left child
 /// follows it.
 class CapsuleTree {
  public:
   /// \param points  control points of all pieces in order, `per_piece` each
   CapsuleTree(Points points, std::size_t per_piece);
+
+  /// Of one piece.
+  const Capsule& of(std::size_t piece) const { return nodes_[leaves_[piece]].capsule; }
 
   /// Calls visit(piece) for the pieces whose capsule is not farther from p than bound(), nearest branch
   /// first. bound() may shrink as pieces are visited.
@@ -78,6 +84,7 @@ class CapsuleTree {
   void build(Points points, std::size_t per_piece, std::size_t first);
 
   std::vector<Node> nodes_;
+  std::vector<std::size_t> leaves_;
 };
 
 }  // namespace tendril

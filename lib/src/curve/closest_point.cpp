@@ -6,143 +6,19 @@
 #include <cmath>
 #include <string>
 
-#include "capsule_tree.h"
-#include "distance_search.h"
-#include "minima_sweep.h"
+#include "degree_data.h"
+#include "describe.h"
+#include "spatial_order.h"
 
 namespace tendril {
 
 using search::Bounds;
-using search::kUnit;
-
-/// The curve and what classification needs; the search proper depends on the degree.
-struct CurveProjector::Data {
-  explicit Data(const BSpline& c) : curve(c) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& u : curve.control_points()) {
-      box.extend(u);
-      reach = std::max(reach, u.norm());
-    }
-    centre = box.center();
-    diagonal = box.diagonal().norm();
-  }
-  virtual ~Data() = default;
-
-  struct Found {
-    double t;
-    double least;  ///< proven: no distance is smaller
-  };
-  /// \param hint  a parameter, NaN for none: its sub-piece is examined first
-  virtual Found find(const Vec3& p, const Bounds& bounds, double hint) const = 0;
-  /// Local minima up to the distance `cut`, in the order of t.
-  virtual std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const = 0;
-
-  double size(const Vec3& p) const { return diagonal + (p - centre).norm(); }
-  Bounds bounds(const Vec3& p) const {
-    const double blur = 12 * (curve.degree() + 1) * kUnit * reach;
-    return {1e-14 * size(p), 1e-13 * size(p) + 4.0 * blur, blur};
-  }
-
-  BSpline curve;
-  Vec3 centre;
-  double diagonal = 0.0;
-  double reach = 0.0;  ///< largest norm of a control point
-};
 
 namespace {
 
 constexpr double kLargest = 1e150;
-
-/// Halves a Bezier piece `times` times and appends the parts.
-template <int P>
-void divide(const search::Piece<P>& piece, int times, std::vector<search::Piece<P>>& out) {
-  if (times == 0) {
-    out.push_back(piece);
-    return;
-  }
-  search::Interval<P> left;
-  left.points = piece.points;
-  left.low = 0.0;
-  left.high = 1.0;
-  left.depth = 0;
-  const search::Interval<P> right = left.halve();
-  const double middle = piece.parameter(0.5);
-  divide<P>({left.points, piece.begin, middle}, times - 1, out);
-  divide<P>({right.points, middle, piece.end}, times - 1, out);
-}
-
-template <int P>
-std::vector<search::Piece<P>> sub_pieces(const BSpline& curve) {
-  std::vector<search::Piece<P>> pieces;
-  for (const BezierPiece& bezier : curve.bezier_pieces()) {
-    search::Piece<P> piece{{}, bezier.begin, bezier.end};
-    std::copy(bezier.points.begin(), bezier.points.end(), piece.points.begin());
-    divide<P>(piece, P == 1 ? 0 : 2, pieces);
-  }
-  return pieces;
-}
-
-template <int P>
-std::vector<Vec3> all_points(const std::vector<search::Piece<P>>& pieces) {
-  std::vector<Vec3> points;
-  for (const auto& piece : pieces) points.insert(points.end(), piece.points.begin(), piece.points.end());
-  return points;
-}
-
-template <int P>
-struct DataOfDegree final : CurveProjector::Data {
-  explicit DataOfDegree(const BSpline& c)
-      : Data(c),
-        pieces(sub_pieces<P>(curve)),
-        fine(search::fine_pieces<P>(curve)),
-        tree(all_points<P>(pieces), P + 1) {}
-
-  Found find(const Vec3& p, const Bounds& bounds, double hint) const override {
-    search::Search<P> search(curve, p, bounds);
-    const std::size_t first = std::isnan(hint) ? pieces.size() : piece_at(hint);
-    if (first < pieces.size()) search.examine(pieces[first]);
-    tree.descend(
-        p, [&] { return search.cut(); },
-        [&](std::size_t piece) {
-          if (piece != first) search.examine(pieces[piece]);
-        });
-    search.finish();
-    return {search.t(), search.least()};
-  }
-
-  std::size_t piece_at(double t) const {
-    const auto after =
-        std::upper_bound(pieces.begin(), pieces.end(), t,
-                         [](double at, const search::Piece<P>& piece) { return at < piece.begin; });
-    return after == pieces.begin() ? 0 : static_cast<std::size_t>(after - pieces.begin()) - 1;
-  }
-
-  std::vector<search::Minimum> sweep(const Vec3& p, double cut, double blur) const override {
-    std::vector<std::size_t> near;
-    tree.descend(
-        p, [&] { return cut; }, [&](std::size_t piece) { near.push_back(piece); });
-    std::sort(near.begin(), near.end());
-    search::Ridge ridge(curve, p, cut, blur);
-    search::Sweep<P> examiner(p, cut, blur, ridge);
-    const std::size_t parts = pieces.size() / fine.size();
-    std::size_t expected = 0;
-    for (const std::size_t i : near) {
-      if (i != expected) ridge.far(pieces[i].begin);
-      examiner.examine(pieces[i], fine[i / parts], static_cast<int>(i % parts), static_cast<int>(parts));
-      expected = i + 1;
-    }
-    if (expected == pieces.size()) {
-      ridge.trend(1, curve.knots().end());
-    } else {
-      ridge.far(curve.knots().end());
-    }
-    return ridge.take_all();
-  }
-
-  std::vector<search::Piece<P>> pieces;
-  std::vector<search::FinePiece<P>> fine;
-  CapsuleTree tree;
-};
+/// Points that go down the tree together.
+constexpr std::size_t kTogether = 512;
 
 std::shared_ptr<const CurveProjector::Data> prepare(const BSpline& curve) {
   for (const Vec3& u : curve.control_points())
@@ -161,60 +37,6 @@ std::shared_ptr<const CurveProjector::Data> prepare(const BSpline& curve) {
     default:
       return std::make_shared<DataOfDegree<5>>(curve);
   }
-}
-
-/// Smallest angle that is told from a right one (of offset and tangent) or from none (of tangents).
-constexpr double kAngle = 1e-9;
-
-/// Speed below rounding of the control points' differences.
-bool at_rest(const CurveProjector::Data& data, const Vec3& velocity, int span) {
-  const auto i = static_cast<std::size_t>(span);
-  const auto knots = data.curve.knots().knots();
-  return velocity.norm() * (knots[i + 1] - knots[i]) <= 64.0 * kUnit * (data.diagonal + data.reach);
-}
-
-/// Whether the distance has a kink at the interior knot t: c' jumps there, and the offset is orthogonal to
-/// neither of its sides.
-bool is_kink(const BSpline& curve, double t, int span, const Vec3& offset, const Vec3& right, double size) {
-  int before = span - 1;
-  const auto knots = curve.knots().knots();
-  while (knots[static_cast<std::size_t>(before)] == t) --before;
-  const Vec3 left =
-      combine(curve.knots().basis_in_span(t, before, 1), curve.degree(), curve.control_points(), 1);
-  if (!(left.cross(right).norm() > kAngle * left.norm() * right.norm()) && left.dot(right) > 0.0)
-    return false;
-  if (offset.norm() <= 1e-14 * size) return true;
-  return std::abs(offset.dot(left)) > kAngle * offset.norm() * left.norm() &&
-         std::abs(offset.dot(right)) > kAngle * offset.norm() * right.norm();
-}
-
-Projection describe(const CurveProjector::Data& data, const Vec3& p,
-                    const CurveProjector::Data::Found& found) {
-  const BSpline& curve = data.curve;
-  const KnotVector& knots = curve.knots();
-  const double t = found.t;
-  const int span = knots.span(t);
-  const Basis basis = knots.basis_in_span(t, span, 2);
-  Projection result{
-      t, combine(basis, curve.degree(), curve.control_points()), 0.0, ProjectionKind::interior, 0.0, 0.0};
-  const Vec3 offset = result.point - p;
-  result.distance = offset.norm();
-  result.gap = std::max(0.0, result.distance - std::max(0.0, found.least));
-  const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
-  const bool rest = at_rest(data, d1, span);
-  if (!rest) {
-    const Vec3 d2 = combine(basis, curve.degree(), curve.control_points(), 2);
-    result.lambda = 1.0 + offset.dot(d2) / d1.squaredNorm();
-  }
-  if (t == knots.start()) {
-    result.kind = ProjectionKind::start;
-  } else if (t == knots.end()) {
-    result.kind = ProjectionKind::end;
-  } else if (rest || (t == knots.knots()[static_cast<std::size_t>(span)] &&
-                      is_kink(curve, t, span, offset, d1, data.size(p)))) {
-    result.kind = ProjectionKind::joint;
-  }
-  return result;
 }
 
 /// What a side of a joint says: lambda there, and the cosine between the offset and the way out.
@@ -283,8 +105,12 @@ std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, 
   return result;
 }
 
+bool within_reach(const Vec3& p) {
+  return is_finite(p) && p.cwiseAbs().maxCoeff() <= kLargest;
+}
+
 void check(const Vec3& p) {
-  if (!(p.cwiseAbs().maxCoeff() <= kLargest) || !is_finite(p))
+  if (!within_reach(p))
     throw InvalidInput("CurveProjector: point", "not finite or beyond 1e150", "three finite numbers");
 }
 
@@ -301,6 +127,19 @@ Projection CurveProjector::nearest(const Vec3& p, double hint) const {
   check(p);
   if (std::isnan(hint)) throw InvalidInput("CurveProjector: hint", "not a number", "a parameter");
   return describe(*data_, p, data_->find(p, data_->bounds(p), hint));
+}
+
+std::vector<Projection> CurveProjector::nearest(Points points) const {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!within_reach(points[i]))
+      throw InvalidInput("CurveProjector: points[" + std::to_string(i) + "]", "not finite or beyond 1e150",
+                         "three finite numbers");
+  std::vector<Data::Found> found(points.size());
+  const std::vector<std::uint32_t> order = spatial_order(points);
+  const auto batch = data_->batch();
+  for (std::size_t begin = 0; begin < points.size(); begin += kTogether)
+    batch->find(points, std::span(order).subspan(begin, std::min(kTogether, points.size() - begin)), found);
+  return describe_all(*data_, points, found);
 }
 
 std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band) const {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "basis_rows.h"
+
 namespace tendril {
 namespace {
 
@@ -43,73 +45,18 @@ void check_multiplicity(std::span<const double> knots, int degree) {
       throw InvalidInput(at(i), "repeated more than degree times", "a continuous curve");
 }
 
-using Row = std::array<double, kMaxDegree + 1>;
-
-#define TENDRIL_INLINE inline __attribute__((always_inline))
-
-TENDRIL_INLINE std::size_t idx(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-/// Values of degree D from those of degree D - 1 (Cox, de Boor). `knot` points at the span's first knot.
-template <int D>
-TENDRIL_INLINE Row raise_value(const Row& lower, const double* knot, double t) {
-  Row row{};
-  for (int j = 0; j < D; ++j) {
-    const double left = knot[j + 1 - D];
-    const double right = knot[j + 1];
-    const double share = lower[idx(j)] / (right - left);
-    row[idx(j)] += (right - t) * share;
-    row[idx(j + 1)] = (t - left) * share;
-  }
-  return row;
-}
-
-/// One differentiation: N'_{i,D} = D (N_{i,D-1} / (k_{i+D} - k_i) - N_{i+1,D-1} / (k_{i+D+1} - k_{i+1})),
-/// applied to any linear combination of derivatives of the lower row.
-template <int D>
-TENDRIL_INLINE Row raise_derivative(const Row& lower, const double* knot) {
-  Row row{};
-  for (int j = 0; j < D; ++j) {
-    const double share = D * lower[idx(j)] / (knot[j + 1] - knot[j + 1 - D]);
-    row[idx(j)] -= share;
-    row[idx(j + 1)] += share;
-  }
-  return row;
-}
-
-using Rows = std::array<Row, kMaxDegree + 1>;
-
-/// rows[d] for d = 1 to P: the d + 1 functions of degree d that live in the span. Unrolled for each degree.
-template <int P>
-TENDRIL_INLINE void fill_values(Rows& rows, const double* knot, double t) {
-  if constexpr (P > 0) {
-    fill_values<P - 1>(rows, knot, t);
-    rows[P] = raise_value<P>(rows[P - 1], knot, t);
-  }
-}
-
-/// A row of degree D raised to degree P by differentiations.
-template <int P, int D>
-TENDRIL_INLINE Row differentiate(const Row& row, const double* knot) {
-  if constexpr (D == P)
-    return row;
-  else
-    return differentiate<P, D + 1>(raise_derivative<D + 1>(row, knot), knot);
-}
-
 template <int P>
 void fill(const double* knot, double t, int derivatives, Basis& basis) {
-  Rows rows;
-  rows[0] = Row{1.0};
-  fill_values<P>(rows, knot, t);
+  basis::Rows rows;
+  rows[0] = basis::Row{1.0};
+  basis::fill_values<P>(rows, knot, t);
   basis.value[0] = rows[P];
   if constexpr (P >= 1)
-    if (derivatives >= 1) basis.value[1] = differentiate<P, P - 1>(rows[P - 1], knot);
+    if (derivatives >= 1) basis.value[1] = basis::differentiate<P, P - 1>(rows[P - 1], knot);
   if constexpr (P >= 2)
-    if (derivatives >= 2) basis.value[2] = differentiate<P, P - 2>(rows[P - 2], knot);
+    if (derivatives >= 2) basis.value[2] = basis::differentiate<P, P - 2>(rows[P - 2], knot);
   if constexpr (P >= 3)
-    if (derivatives >= 3) basis.value[3] = differentiate<P, P - 3>(rows[P - 3], knot);
+    if (derivatives >= 3) basis.value[3] = basis::differentiate<P, P - 3>(rows[P - 3], knot);
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ class CurveProjector {
   /// the search from the start. Clamped to the domain; a NaN is InvalidInput.
   Projection nearest(const Vec3& p, double hint) const;
 
+  /// Of many points: each the same as nearest(p), bit for bit, in a fraction of the time, as points that lie
+  /// together share a search in vector lanes. Any order. InvalidInput names the point.
+  std::vector<Projection> nearest(Points points) const;
+
   /// All local minima of the distance that are at most (1 + band) times as far as the nearest: the nearest
   /// first, the others in the order of t. The first is nearest() bit for bit, but where the distance is so
   /// flat that two places 1e-7 of the domain apart differ by rounding only: then this one is the better
