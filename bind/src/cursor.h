@@ -77,24 +77,23 @@ class TextCursor : public ItemName {
     kinds['#'] = hash;
     return kinds;
   }
-  Kind kind() const {
+  static Kind kind_of(char c) {
     static constexpr std::array<Kind, 256> kinds = make_kinds();
-    return kinds[static_cast<unsigned char>(bytes_[next_])];
+    return kinds[static_cast<unsigned char>(c)];
   }
+  Kind kind() const { return kind_of(bytes_[next_]); }
   void skip_blanks();
   void skip_to_token();
   void take_line_end();
   std::string_view take_token();
+  bool in_token(Kind kind) const { return kind == word || (kind == hash && !comments_); }
+  bool take_short_number(double& value);
 
   std::string_view bytes_, last_;
   std::string name_;
   bool comments_, rounds_to_nearest_;
   std::size_t next_ = 0, line_ = 1, last_line_ = 1;
 };
-
-/// A token of at most 18 digits that make a whole number up to 2^53, with a sign and a point at most: exact,
-/// or rounded once (Clinger 1990), where the machine rounds to nearest. False for all others.
-bool parse_short_number(std::string_view token, double& value);
 
 /// A finite or infinite double from a whole token, independent of the locale; a plus sign is allowed.
 /// False when the token is no number or exceeds the range of double.
@@ -162,7 +161,7 @@ inline void TextCursor::skip_to_token() {
 
 inline std::string_view TextCursor::take_token() {
   const std::size_t begin = next_;
-  while (next_ < bytes_.size() && (kind() == word || (kind() == hash && !comments_))) ++next_;
+  while (next_ < bytes_.size() && in_token(kind())) ++next_;
   last_ = bytes_.substr(begin, next_ - begin);
   last_line_ = line_;
   return last_;
@@ -179,9 +178,10 @@ inline std::string_view TextCursor::token(std::string_view expected) {
 
 inline double TextCursor::number() {
   double value = 0.0;
-  const std::string_view text = token("a number");
-  if (rounds_to_nearest_ && parse_short_number(text, value)) return value;
-  if (!parse_number(text, value)) fail(found() + " is not a number of double precision", "a number");
+  skip_to_token();
+  if (rounds_to_nearest_ && take_short_number(value)) return value;
+  if (!parse_number(token("a number"), value))
+    fail(found() + " is not a number of double precision", "a number");
   return value;
 }
 
@@ -190,28 +190,35 @@ inline bool TextCursor::line_done() {
   return next_ == bytes_.size() || kind() == line_end;
 }
 
-inline bool parse_short_number(std::string_view token, double& value) {
+/// Takes a token of at most 18 digits that make a whole number up to 2^53, with a sign and a point at most:
+/// exact, or rounded once (Clinger 1990), where the machine rounds to nearest. Leaves all others.
+inline bool TextCursor::take_short_number(double& value) {
   static constexpr std::array<double, 19> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
                                                  1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
-  const bool negative = token.starts_with('-');
-  if (negative) token.remove_prefix(1);
-  if (token.size() > 19) return false;
-  std::uint64_t digits = 0;
-  std::size_t count = 0, whole = token.size();
-  for (std::size_t i = 0; i < token.size(); ++i) {
-    const auto digit = static_cast<unsigned char>(token[i] - '0');
-    if (digit < 10) {
+  const char *const begin = bytes_.data() + next_, *const end = bytes_.data() + bytes_.size();
+  const char* at = begin;
+  const bool negative = at < end && *at == '-';
+  if (negative) ++at;
+  const char *const first = at, *point = nullptr;
+  std::uint64_t digits = 0;  // wraps round where there are more than 18
+  for (; at < end; ++at) {
+    const auto digit = static_cast<unsigned char>(*at - '0');
+    if (digit < 10)
       digits = 10 * digits + digit;
-      ++count;
-    } else if (token[i] == '.' && whole == token.size()) {
-      whole = i;
-    } else {
-      return false;
-    }
+    else if (*at == '.' && point == nullptr)
+      point = at;
+    else
+      break;
   }
+  if (at < end && in_token(kind_of(*at))) return false;
+  const std::ptrdiff_t count = at - first - (point != nullptr);
   if (count == 0 || count > 18 || digits > std::uint64_t{1} << 53) return false;
-  const double size = static_cast<double>(digits) / powers[count - std::min(whole, count)];
+  const auto decimals = static_cast<std::size_t>(point == nullptr ? 0 : at - point - 1);
+  const double size = static_cast<double>(digits) / powers[decimals];
   value = negative ? -size : size;
+  last_ = {begin, static_cast<std::size_t>(at - begin)};
+  last_line_ = line_;
+  next_ += last_.size();
   return true;
 }
 

@@ -26,18 +26,30 @@ inline bool is_whole(double value) {
                                            : value == std::floor(value);
 }
 
+// Refusals stand apart, so that the checks can be inlined.
+
+template <class Cursor>
+[[noreturn, gnu::noinline]] void refuse_number(const Cursor& in, const char* what) {
+  in.fail(std::string(what) + " " + in.found() + " is not finite", "a finite number");
+}
+template <class Cursor>
+[[noreturn, gnu::noinline]] void refuse_degree(const Cursor& in) {
+  in.fail("a face of " + in.found() + " corners", "a whole number of at least 3 corners");
+}
+template <class Cursor>
+[[noreturn, gnu::noinline]] void refuse_corner(const Cursor& in, std::size_t points) {
+  in.fail("vertex index " + in.found(), "a whole number in [0, " + std::to_string(points) + ")");
+}
+
 template <class Cursor>
 double finite(const Cursor& in, double value, const char* what) {
-  if (!std::isfinite(value))
-    in.fail(std::string(what) + " " + in.found() + " is not finite", "a finite number");
+  if (!std::isfinite(value)) refuse_number(in, what);
   return value;
 }
 
 template <class Cursor>
 void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
-  if (!(degree >= 3 && is_whole(degree))) {
-    in.fail("a face of " + in.found() + " corners", "a whole number of at least 3 corners");
-  }
+  if (!(degree >= 3 && is_whole(degree))) refuse_degree(in);
   const double corners = static_cast<double>(mesh.corners.size()) + degree;
   if (corners > id_limit) in.fail("more than 2^32 - 1 corners in all", "a smaller mesh");
   mesh.face_begin.push_back(static_cast<std::uint32_t>(corners));
@@ -46,9 +58,7 @@ void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
 /// \param points  number of points the header promises; the readers fail later when they are not all there
 template <class Cursor>
 void add_corner(const Cursor& in, PolygonMesh& mesh, double index, std::size_t points) {
-  if (!(index >= 0 && index < static_cast<double>(points) && is_whole(index))) {
-    in.fail("vertex index " + in.found(), "a whole number in [0, " + std::to_string(points) + ")");
-  }
+  if (!(index >= 0 && index < static_cast<double>(points) && is_whole(index))) refuse_corner(in, points);
   mesh.corners.push_back(static_cast<std::uint32_t>(index));
 }
 
