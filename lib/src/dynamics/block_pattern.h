@@ -23,6 +23,7 @@ class BlockPattern {
   std::size_t size() const { return order_.size(); }
   std::size_t entries() const { return later_.size(); }
   std::size_t node(std::size_t pivot) const { return order_[pivot]; }
+  const std::vector<std::size_t>& nodes() const { return order_; }
   std::size_t pivot(std::size_t node) const { return pivot_[node]; }
 
   /// Later neighbours of a pivot, ascending: those from begin(pivot) to begin(pivot + 1).

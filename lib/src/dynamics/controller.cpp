@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "free_bodies.h"
 #include "words.h"
 
 namespace tendril {
@@ -17,9 +18,11 @@ constexpr double kSafety = 0.93;  // thesis 3.34
 constexpr double kStiffSafety = 0.85;
 constexpr double kShrink = 0.2;  // bounds of the factor
 constexpr double kGrow = 5.0;
-constexpr double kLeastError = 1e-2;  // that a prediction counts with, of the tolerance
-constexpr long kGuardInterval = 128;  // accepted steps between estimates of the largest frequency
-constexpr long kDue = 1'000'000'000;  // a count of steps past every interval
+constexpr double kLeastError = 1e-2;   // that a prediction counts with, of the tolerance
+constexpr double kLongestPhase = 1e5;  // of the fastest motion in an implicit step: rounding grows to 1e-6
+constexpr long kLongRun = 32;          // accepted implicit steps after which that is asked
+constexpr long kGuardInterval = 128;   // accepted steps between estimates of the largest frequency
+constexpr long kDue = 1'000'000'000;   // a count of steps past every interval
 constexpr int kLanczosVectors = 16;
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
 
@@ -44,6 +47,7 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
+  floats_ = has_free_body(system.model());
   make_steppers();
   report_.method = fixed_ ? fixed_->name() : embedded_->name();
   report_.guard_step = std::numeric_limits<double>::infinity();
@@ -158,8 +162,16 @@ bool Controller::cut_at_break(double& target) const {
   return break_first;
 }
 
+/// An implicit step's equations weigh the springs by (h omega)^2 against the masses: their rounding turns and
+/// shakes a body that nothing holds in place.
+double Controller::longest_step() const {
+  if (!embedded_->stiff()) return report_.guard_step;
+  return floats_ && guard_frequency_ > 0.0 ? kLongestPhase / guard_frequency_
+                                           : std::numeric_limits<double>::infinity();
+}
+
 Controller::Aim Controller::aim(double target) const {
-  const double cap = embedded_->stiff() ? std::numeric_limits<double>::infinity() : report_.guard_step;
+  const double cap = longest_step();
   double h = std::min({h_, cap, options_.largest_step.value_or(until_ - start_)});
   const bool break_first = cut_at_break(target);
   const double left = target - state_.time;
@@ -187,6 +199,8 @@ bool Controller::step_towards(double target) {
     choose();
   else if (!embedded_->stiff() && since_guard_ >= kGuardInterval)
     guard();
+  else if (embedded_->stiff() && floats_ && report_.accepted == kLongRun && guard_frequency_ < 0.0)
+    measure_guard();
   Evaluation last;
   while (!ended_ && !out_of_work()) {
     const Aim at = aim(target);

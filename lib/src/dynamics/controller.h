@@ -48,6 +48,7 @@ class Controller {
   bool automatic() const;
   void measure_scales();
   void guard();
+  double longest_step() const;
   void measure_guard();
   bool explicit_fits() const;
   void choose();
@@ -79,6 +80,7 @@ class Controller {
   double last_error_ = 0.0, last_step_ = 0.0;  ///< of the last accepted step of a stiff method
   bool rejected_ = false;                      ///< a step was tried in vain since
   bool started_ = false;
+  bool floats_ = false;  ///< some body is held by nothing
   long since_guard_ = 0, implicit_interval_ = 0, other_evaluations_ = 0;
   Energies now_;
   Report report_;

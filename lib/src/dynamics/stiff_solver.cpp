@@ -6,6 +6,7 @@
 #include "block_route.h"
 #include "differences.h"
 #include "elastic.h"
+#include "free_bodies.h"
 #include "spring_stiffness.h"
 #include "stiffness_elements.h"
 #include "turning.h"
@@ -143,6 +144,7 @@ class BlockSolver : public StiffSolver {
     if (resists(model_)) turning_.emplace(model_);
     if (needs_differences(model_)) differences_.emplace(model_, pattern_);
     lay_out();
+    if (!loaded_) bodies_.emplace(model_, pattern_.nodes());  // loads that depend on the state do not cancel
   }
 
   long differentiate(const State& state, const Eigen::VectorXd& rate) override {
@@ -207,9 +209,11 @@ class BlockSolver : public StiffSolver {
       for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, model_.v_begin() + place_[k] + c);
       if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
+    if (bodies_) bodies_->keep(b_.data());
     if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
     matrix_.solve(b_.data());
+    if (bodies_) bodies_->restore([&](std::size_t i) { return s * (s * mass_[i] + damping_[i]); }, b_.data());
     result.setZero(r.size());
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const auto take = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
@@ -373,7 +377,8 @@ class BlockSolver : public StiffSolver {
   std::vector<Connection> connections_;
   std::vector<Link> links_;
   std::vector<Held> held_;
-  std::vector<Eigen::Index> place_, angle_;     ///< per pivot, of its node in p, and in theta or -1
+  std::vector<Eigen::Index> place_, angle_;  ///< per pivot, of its node in p, and in theta or -1
+  std::optional<FreeBodies> bodies_;
   std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
   std::optional<ViscousTurning> turning_;
   Eigen::VectorXd gradient_;

@@ -1,0 +1,53 @@
+#include "free_bodies.h"
+
+#include <numeric>
+
+namespace tendril {
+namespace {
+
+/// Per node, the number of its rod.
+std::vector<std::size_t> rod_of_nodes(const System::Model& model) {
+  std::vector<std::size_t> rod(model.nodes);
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    for (std::size_t i = 0; i < model.rods[r].count; ++i) rod[model.rods[r].first + i] = r;
+  return rod;
+}
+
+}  // namespace
+
+FreeBodies::FreeBodies(const System::Model& model, const std::vector<std::size_t>& node) {
+  const std::vector<std::size_t> rod = rod_of_nodes(model);
+  // The body of a rod is that of its parent's, which comes before it in the order.
+  std::vector<std::size_t> body(model.rods.size());
+  std::iota(body.begin(), body.end(), std::size_t{0});
+  std::vector<char> held(model.rods.size(), 0);
+  for (const std::size_t r : model.order)
+    if (const auto* ride = model.ride_of(r)) {
+      if (ride->reaction)
+        body[r] = body[rod[ride->parent]];
+      else
+        held[r] = 1;
+    }
+  for (const std::size_t i : model.driven_positions) held[body[rod[i]]] = 1;
+  std::vector<Body> all(model.rods.size());
+  for (std::size_t k = 0; k < node.size(); ++k)
+    if (!model.holds_position(node[k])) all[body[rod[node[k]]]].pivots.push_back(k);
+  for (std::size_t r = 0; r < all.size(); ++r)
+    if (held[r] == 0 && !all[r].pivots.empty()) bodies_.push_back(std::move(all[r]));
+}
+
+void FreeBodies::keep(const double* b) {
+  for (Body& body : bodies_) {
+    body.sum.setZero();
+    for (const std::size_t k : body.pivots)
+      for (std::size_t c = 0; c < 3; ++c) body.sum[static_cast<Eigen::Index>(c)] += b[4 * k + c];
+  }
+}
+
+bool has_free_body(const System::Model& model) {
+  std::vector<std::size_t> nodes(model.nodes);
+  std::iota(nodes.begin(), nodes.end(), std::size_t{0});
+  return !FreeBodies(model, nodes).empty();
+}
+
+}  // namespace tendril
