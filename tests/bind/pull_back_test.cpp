@@ -196,8 +196,8 @@ TEST(PullBack, HoldsForPointsWithSeveralPlaces) {
   const auto few = binding.pull_back({&posed, 1}, binding.report().ambiguous, sparse);
   const Vectors ds = tangent(binding, posed, du, dv);
   const double scale = std::sqrt(dot(f, f) * dot(ds, ds));
-  EXPECT_NEAR(dot(g[0].primary, du) + dot(g[0].orientation, dv), dot(f, ds), 1e-11 * scale);
-  EXPECT_NEAR(dot(few[0].primary, du) + dot(few[0].orientation, dv), dot(f, ds), 1e-11 * scale);
+  EXPECT_NEAR(dot(g[0].primary, du) + dot(g[0].orientation, dv), dot(f, ds), 1e-12 * scale);
+  EXPECT_NEAR(dot(few[0].primary, du) + dot(few[0].orientation, dv), dot(f, ds), 1e-12 * scale);
 }
 
 TEST(PullBack, FollowsTheCurveAloneWithoutAFrame) {

@@ -37,8 +37,7 @@ const char* to_string(ProjectionKind kind) {
   return "unknown";
 }
 
-Found find(const CurvePair& pair, const CurveProjector& projector, const Vec3& point) {
-  const Projection projection = projector.nearest(point);
+Found record(const CurvePair& pair, const Projection& projection, const Vec3& point) {
   return {projection, to_axial(pair, projection.t, point), pair.frame(projection.t).status};
 }
 
@@ -70,11 +69,11 @@ void print_row(const Found& found) {
 int project(const Options& options) {
   const CurveFile curve = read_curve(options.curve);
   const std::vector<Vec3> points = read_points_csv(options.points);
-  const CurveProjector projector(curve.pair.primary());
+  const std::vector<Projection> nearest = CurveProjector(curve.pair.primary()).nearest(points);
   OrderedJson list = OrderedJson::array();
   if (!options.json) std::cout << "t,x,y,z,distance,lambda,gap,u,v,w,kind,frame\n";
-  for (const Vec3& point : points) {
-    const Found found = find(curve.pair, projector, point);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Found found = record(curve.pair, nearest[i], points[i]);
     if (options.json) {
       list.push_back(to_json(found));
     } else {
