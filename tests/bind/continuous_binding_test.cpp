@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <tendril/base/error.h>
+#include <tendril/bind/judge.h>
 #include <tendril/bind/mesh_follower.h>
 
 #include <cmath>
@@ -145,6 +146,45 @@ TEST(ContinuousBinding, RefusesAProjectionThatNoWayOverTheMeshLeadsTo) {
   EXPECT_GT(reaches_a(lone).second, 0u);
   EXPECT_GT(reaches_a(joined).first, 0.01);
   EXPECT_EQ(reaches_a(joined).second, 0u);
+}
+
+/// Three loops of the axis within a tube: strands that cross each other close to the mesh, jumps between
+/// places close together, and foci.
+TEST(ContinuousBinding, DoesNotTearAboutLoops) {
+  const PolygonMesh mesh = tube(60, 40);
+  const test::Chain loops = test::tear_axes(mesh.points)[4].rest;
+  const CurvePair rest = test::tear_pose(loops, 0).rest;
+  const TearJudge judge({&rest, 1}, mesh, continuous(), {.refinements = 1, .least_edges = 20000});
+  for (int pose = 0; pose < test::kTearPoses; ++pose) {
+    const CurvePair posed = test::tear_pose(loops, pose).posed;
+    const JudgeReport report = judge.judge({&posed, 1});
+    for (const double growth : report.growth) EXPECT_LE(growth, 1.1) << pose;
+    EXPECT_LE(report.growth_of_max, 1.6) << pose;
+  }
+}
+
+/// A strip runs beside leg B of a U towards the bend. Leg A is within its reach, but no way over the mesh
+/// leads there; nearer the bend the places between the legs are within reach, and A's with them.
+TEST(ContinuousBinding, LetsInTheCurveBehindARefusedProjectionByDegrees) {
+  const test::Chain u = test::tear_axes(tube(10, 10).points)[3].rest;
+  const CurvePair rest = test::tear_pose(u, 0).rest;
+  const double middle = 0.5 * (rest.knots().start() + rest.knots().end());
+  const Vec3 a = u.points[7], b = u.points[u.points.size() - 8];
+  const auto step = [&](int count) {
+    const Vec3 from = a + 0.53 * (b - a);
+    const PolygonMesh mesh = strip(line(from, from + Vec3(0.9, 0, 0), count));
+    const Binding binding({&rest, 1}, mesh, continuous());
+    EXPECT_GT(binding.report().gated.size(), mesh.points.size() / 2);
+    std::vector<Vec3> part_of_a(mesh.points.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      for (const Share& share : binding.shares(i))
+        if (share.record.t < middle) part_of_a[i].x() += share.weight;
+    EXPECT_EQ(part_of_a.front().x(), 0.0);
+    EXPECT_GT(part_of_a.back().x(), 0.05);
+    return longest_step(part_of_a);
+  };
+  EXPECT_NEAR(step(401) / step(201), 0.5, 0.05);
+  EXPECT_NEAR(step(801) / step(401), 0.5, 0.05);
 }
 
 /// A body and a leg that starts at it, each with a curve-pair of its own.
