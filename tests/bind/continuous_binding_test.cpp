@@ -12,12 +12,12 @@ namespace tendril::bind {
 namespace {
 
 /// A tube round a line, wide enough to lie across all that an axis through its box does.
-PolygonMesh tube(int along, int round) {
+PolygonMesh tube(int along, int round, double height = 1.0, double depth = 0.6) {
   PolygonMesh mesh;
   for (int i = 0; i <= along; ++i)
     for (int k = 0; k < round; ++k) {
       const double a = 2 * std::numbers::pi * k / round;
-      mesh.points.emplace_back(4.0 * i / along, 1.0 * std::cos(a), 0.6 * std::sin(a));
+      mesh.points.emplace_back(4.0 * i / along, height * std::cos(a), depth * std::sin(a));
     }
   const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(i * round + k % round); };
   for (int i = 0; i < along; ++i)
@@ -161,6 +161,42 @@ TEST(ContinuousBinding, DoesNotTearAboutLoops) {
     for (const double growth : report.growth) EXPECT_LE(growth, 1.1) << pose;
     EXPECT_LE(report.growth_of_max, 1.6) << pose;
   }
+}
+
+/// Beside a jump from one place to another close by, the nearest projection may have a part only as far as it
+/// moves slowly.
+TEST(ContinuousBinding, LeavesOutTheNearestWhereItMovesFast) {
+  const PolygonMesh mesh = split_at_middles(tube(60, 60, 1.2, 1.2));
+  const CurvePair rest = test::tear_pose(test::tear_axes(mesh.points)[4].rest, 0).rest;
+  const Binding binding({&rest, 1}, mesh, continuous());
+  double alone = 0.0, fastest = 0.0;
+  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
+    const std::uint32_t a = mesh.corners[k], b = mesh.corners[k % 3 < 2 ? k + 1 : k - 2];
+    const Share in_a = binding.shares(a).front(), in_b = binding.shares(b).front();
+    const double moved = (rest.primary().value(in_a.record.t) - rest.primary().value(in_b.record.t)).norm() /
+                         (mesh.points[a] - mesh.points[b]).norm();
+    alone = std::max(alone, moved);
+    fastest = std::max(fastest, std::min(in_a.weight, in_b.weight) * moved);
+  }
+  EXPECT_GT(alone, 20.0);
+  EXPECT_LT(fastest, 2.5);
+}
+
+/// An axis like an 8, whose strands pass each other at a small gap; a strip through the gap.
+TEST(ContinuousBinding, StretchesNoMoreWhereStrandsPassCloser) {
+  const auto steepest = [&](double gap) {
+    test::Chain eight{{}, Vec3::UnitZ()};
+    for (int k = 0; k <= 40; ++k) {
+      const double a = std::numbers::pi * (1.8 * k / 40.0 - 0.4);
+      eight.points.emplace_back(std::sin(a), 0.5 * std::sin(2 * a), 0.5 * gap * std::cos(a));
+    }
+    const test::RestAndPose pair = test::tear_pose(eight, 0);
+    const PolygonMesh mesh = strip(line(Vec3(0.01, 0, -0.5), Vec3(0.01, 0, 0.5), 2001));
+    std::vector<Vec3> out(mesh.points.size());
+    Binding({&pair.rest, 1}, mesh, continuous()).update(pair.posed, out);
+    return longest_step(out) / longest_step(mesh.points);
+  };
+  EXPECT_LT(steepest(0.004), 1.1 * steepest(0.04));
 }
 
 /// A strip runs beside leg B of a U towards the bend. Leg A is within its reach, but no way over the mesh
