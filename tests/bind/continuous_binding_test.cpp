@@ -196,7 +196,8 @@ TEST(ContinuousBinding, StretchesNoMoreWhereStrandsPassCloser) {
     Binding({&pair.rest, 1}, mesh, continuous()).update(pair.posed, out);
     return longest_step(out) / longest_step(mesh.points);
   };
-  EXPECT_LT(steepest(0.004), 1.1 * steepest(0.04));
+  EXPECT_LT(steepest(0.04), steepest(0.2));
+  EXPECT_LT(steepest(0.004), steepest(0.04));
 }
 
 /// A strip runs beside leg B of a U towards the bend. Leg A is within its reach, but no way over the mesh
