@@ -201,7 +201,9 @@ void Search::find_scales() {
 /// rise no faster than beside the middle between two strands.
 void Search::find_lacks() {
   in_parts([&](std::size_t i) {
-    if (axis_.may_be_ambiguous(site(i))) lists_[i] = candidates(site(i));
+    lacks_[i] = 1.0;
+    if (!axis_.may_be_ambiguous(site(i))) return;
+    lists_[i] = candidates(site(i));
     lacks_[i] = std::min(1.0, axis_.lack(site(i)));
   });
   bound_growth(

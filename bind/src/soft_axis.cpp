@@ -176,31 +176,33 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
   return sum > 0.0 ? normalized(std::move(out), sum) : out;
 }
 
-/// Between two places next to each other: where the cosine changes its sign it is 0 in between.
-double SoftAxis::flatness(const Curve& curve, const Vec3& p, std::size_t before) const {
-  double lambda = std::numeric_limits<double>::infinity(), cosines[2];
+/// Of the places from `first` to the next one: where the cosine changes its sign it is 0 in between.
+double SoftAxis::flatness(const Site& site, std::uint32_t pair, std::size_t first) const {
+  const Curve& curve = curves_[pair];
+  double away = std::numeric_limits<double>::infinity(), lambda = away, cosines[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    const Vec3 way = p - curve.points[before + k];
-    const double away = way.norm();
-    lambda = std::min(lambda, std::max(0.0, 1.0 - curve.curvatures[before + k].dot(way)));
-    cosines[k] = away > 0.0 ? curve.tangents[before + k].dot(way) / away : 0.0;
+    const Vec3 way = site.p - curve.points[first + k];
+    const double distance = way.norm();
+    away = std::min(away, distance);
+    lambda = std::min(lambda, std::max(0.0, 1.0 - curve.curvatures[first + k].dot(way)));
+    cosines[k] = distance > 0.0 ? curve.tangents[first + k].dot(way) / distance : 0.0;
   }
   const bool turns = cosines[0] * cosines[1] <= 0.0;
-  return (lambda + (turns ? 0.0 : std::min(std::abs(cosines[0]), std::abs(cosines[1])))) / band_;
+  const double cosine = turns ? 0.0 : std::min(std::abs(cosines[0]), std::abs(cosines[1]));
+  const double excess = std::max(0.0, site.factors[pair] * away - site.nearest().at.distance);
+  return excess / (band_ * site.scale) + (lambda + cosine) / band_;
 }
 
 double SoftAxis::flatness(const Site& site) const {
   double least = 1.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
-    const Curve& curve = curves_[pair];
-    double before = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < curve.points.size(); ++k) {
-      const double away = site.factors[pair] * (site.p - curve.points[k]).norm();
-      const double now = std::max(0.0, (away - site.nearest().at.distance) / (band_ * site.scale));
-      const double excess = std::min(before, now);
-      if (excess < least)
-        least = std::min(least, excess + flatness(curve, site.p, k - std::min<std::size_t>(k, 1)));
-      before = now;
+    const std::vector<Vec3>& points = curves_[pair].points;
+    const double reach = (site.nearest().at.distance + band_ * site.scale) / site.factors[pair];
+    bool near = (site.p - points[0]).squaredNorm() < reach * reach;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const bool before = near;
+      near = (site.p - points[k]).squaredNorm() < reach * reach;
+      if (before || near) least = std::min(least, flatness(site, pair, k - 1));
     }
   }
   return least;

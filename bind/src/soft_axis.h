@@ -39,8 +39,8 @@ class SoftAxis {
   /// that is the radius of curvature along n. |p - c| / tau is continuous in p wherever c is, and 1 wherever
   /// c is not; what it lacks to 1 is compared with `band`. A strand of the axis that is near c, but far along
   /// the axis, takes over across a plane in their middle: there the distance of p to the plane is compared
-  /// with band scale. Between two places close together that c is about to jump
-  /// across, the distance has a flat hump: see flatness().
+  /// with band scale. Where c is about to jump to a place close by, the distance has a flat hump between the
+  /// two, before they are equally near: see flatness().
   double lack(const Site& site) const;
   /// What the places around have in the point: 1 at no lack, 0 at a lack of 1.
   static double share(double lack);
@@ -64,12 +64,13 @@ class SoftAxis {
     double t, excess;
     Vec3 point;
   };
+
   double width(const Site& site) const { return 2.0 * band_ * site.scale; }
   /// Least of e + (max(lambda, 0) + |cosine|) / band over the places: e is the excess of their distance in
   /// units of band scale, lambda as of a projection, the cosine is that between tangent and way to p. Both
   /// are 0 where a pair of projections is born.
   double flatness(const Site& site) const;
-  double flatness(const Curve& curve, const Vec3& p, std::size_t before) const;
+  double flatness(const Site& site, std::uint32_t pair, std::size_t first) const;
   std::vector<Sample> samples(const Site& site, std::uint32_t pair) const;
   static void raise_behind_humps(std::span<const double> minima, std::vector<Sample>& along);
   static void lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
