@@ -2,52 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "facing.h"
+#include "neighbours.h"
 #include "parallel.h"
 #include "soft_axis.h"
 
 namespace tendril::bind {
 namespace {
 
-/// What may count at all is so much farther than the nearest, in units of `band`.
-constexpr double kReach = 2.0;
+/// By how much the scale of the binding falls over a way on the mesh. Less than 1, by which the distance to a
+/// curve can fall, so that where the mesh runs into its own axis the scale is that of the mesh around.
+constexpr double kScaleSlope = 0.5;
+constexpr double kSmallest = 1e-150;  ///< scale, so that its square is a number
 
 using CandidateLists = std::vector<std::vector<Candidate>>;
-
-/// The nearest projection on any of the curves; `hints` are those of the point before.
-Candidate nearest_of(std::span<const CurveProjector> projectors, const Facing& facing, std::size_t point,
-                     const Vec3& p, std::vector<double>& hints) {
-  Candidate best{0, {}};
-  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
-    const Projection at = projectors[k].nearest(p, hints[k]);
-    hints[k] = at.t;
-    const double factor = facing.factor(point, k);
-    if (k == 0 || factor * at.distance < best.distance())
-      best = {k, {at, std::max(0.0, at.lambda), false, 1}, factor};
-  }
-  if (best.at.kind != ProjectionKind::interior)
-    best.at = projectors[best.pair].all(p, 0.0, hints[best.pair]).front();
-  return best;
-}
-
-/// All projections within the band, the nearest first.
-std::vector<Candidate> candidates(std::span<const CurveProjector> projectors, const Facing& facing,
-                                  std::size_t point, const Vec3& p, const Candidate& nearest, double band) {
-  const double reach = (1.0 + kReach * band) * nearest.distance();
-  std::vector<Candidate> out;
-  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
-    const double factor = facing.factor(point, k);
-    const double distance =
-        factor * (k == nearest.pair ? nearest.at.distance : projectors[k].nearest(p).distance);
-    if (distance > reach) continue;
-    const double within = distance > 0.0 ? std::max(0.0, reach / distance - 1.0) : 0.0;
-    for (const LocalMinimum& m : projectors[k].all(p, within, nearest.at.t)) out.push_back({k, m, factor});
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
-  return out;
-}
 
 /// Whether two projections of neighbours belong to one branch: from their middle, no hump of the distance
 /// lies between them.
@@ -114,70 +84,152 @@ class Gate {
   std::vector<Node> waiting_;
 };
 
-}  // namespace
+/// Finds the branches of a mesh step by step, each in parts of the points or over the whole mesh.
+class Search {
+ public:
+  Search(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band, int threads)
+      : projectors_(projectors),
+        mesh_(mesh),
+        band_(band),
+        threads_(threads),
+        axis_(projectors, band),
+        neighbours_(mesh),
+        facing_(projectors, mesh, neighbours_, threads),
+        lists_(mesh.points.size()),
+        scales_(mesh.points.size()),
+        lacks_(mesh.points.size()) {}
 
-Neighbours::Neighbours(const PolygonMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
-      edges.push_back({a, b});
-      edges.push_back({b, a});
-    }
+  Branches run() {
+    find_nearest();
+    find_scales();
+    find_lacks();
+    Branches branches;
+    if (std::any_of(lists_.begin(), lists_.end(), [](const auto& list) { return list.size() > 1; }))
+      branches.gated = Gate(projectors_, mesh_, neighbours_, lists_).run();
+    share(branches);
+    return branches;
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  begin.assign(mesh.points.size() + 1, 0);
-  for (const auto& edge : edges) {
-    ++begin[edge[0] + 1];
-    to.push_back(edge[1]);
+
+ private:
+  template <class Do>
+  void in_parts(const Do& each) const {
+    bind::in_parts(mesh_.points.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) each(i);
+    });
   }
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  Site site(std::size_t point) const;
+  std::vector<Candidate> candidates(const Site& site) const;
+  void find_nearest();
+  void find_scales();
+  void find_lacks();
+  void share(Branches& branches) const;
+
+  std::span<const CurveProjector> projectors_;
+  const PolygonMesh& mesh_;
+  double band_;
+  int threads_;
+  SoftAxis axis_;
+  Neighbours neighbours_;
+  Facing facing_;
+  CandidateLists lists_;  ///< per point, the nearest projection first; the others where they are asked for
+  std::vector<double> scales_, lacks_;  ///< per point, see Site and SoftAxis::lack
+};
+
+Site Search::site(std::size_t point) const {
+  Site site{mesh_.points[point], scales_[point], {}, lists_[point]};
+  const double unit = site.nearest().factor;
+  for (std::uint32_t k = 0; k < projectors_.size(); ++k)
+    site.factors.push_back(facing_.factor(point, k) / unit);
+  return site;
 }
+
+/// All projections that count, the nearest first.
+std::vector<Candidate> Search::candidates(const Site& site) const {
+  const Candidate& nearest = site.nearest();
+  const double reach = axis_.reach(site);
+  std::vector<Candidate> out;
+  for (std::uint32_t k = 0; k < projectors_.size(); ++k) {
+    const double most = reach / site.factors[k];
+    const double distance = k == nearest.pair ? nearest.at.distance : projectors_[k].nearest(site.p).distance;
+    if (distance > most) continue;
+    const double within = distance > 0.0 ? most / distance - 1.0 : std::numeric_limits<double>::infinity();
+    for (const LocalMinimum& m : projectors_[k].all(site.p, within, nearest.at.t))
+      if (!(m.distance > most)) out.push_back({k, m, nearest.factor * site.factors[k]});
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
+  return out;
+}
+
+/// On any of the curves.
+void Search::find_nearest() {
+  bind::in_parts(lists_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::uint32_t k = 0; k < projectors_.size(); ++k) {
+      const std::vector<Projection> nearest =
+          projectors_[k].nearest(Points(mesh_.points).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        const Projection& at = nearest[i - begin];
+        const double factor = facing_.factor(i, k);
+        if (k == 0 || factor * at.distance < lists_[i].front().distance())
+          lists_[i] = {{k, {at, std::max(0.0, at.lambda), false, 1}, factor}};
+      }
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      Candidate& best = lists_[i].front();
+      if (best.at.kind != ProjectionKind::interior)
+        best.at = projectors_[best.pair].all(mesh_.points[i], 0.0, best.at.t).front();
+    }
+  });
+}
+
+/// The smallest function above the distance to the axis that falls by at most kScaleSlope.
+void Search::find_scales() {
+  for (std::size_t i = 0; i < scales_.size(); ++i) scales_[i] = -lists_[i].front().distance();
+  bound_growth(
+      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return scales_[i]; },
+      [](std::uint32_t, double way) { return kScaleSlope * way; });
+  for (std::size_t i = 0; i < scales_.size(); ++i)
+    scales_[i] = std::max(kSmallest, -scales_[i] / lists_[i].front().factor);
+}
+
+/// Near a jump from one place to another close by, the lack rises over a way like that between the places:
+/// there the shares of the places around would change as fast. The lack of the points about is lowered to
+/// rise no faster than beside the middle between two strands.
+void Search::find_lacks() {
+  in_parts([&](std::size_t i) {
+    lacks_[i] = 1.0;
+    if (!axis_.may_be_ambiguous(site(i))) return;
+    lists_[i] = candidates(site(i));
+    lacks_[i] = std::min(1.0, axis_.lack(site(i)));
+  });
+  bound_growth(
+      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return lacks_[i]; },
+      [&](std::uint32_t i, double way) { return way / (band_ * scales_[i]); });
+  in_parts([&](std::size_t i) {
+    if (lacks_[i] < 1.0 && lists_[i].size() == 1) lists_[i] = candidates(site(i));
+  });
+}
+
+void Search::share(Branches& branches) const {
+  branches.influences.resize(lists_.size());
+  in_parts([&](std::size_t i) {
+    const double share = SoftAxis::share(lacks_[i]);
+    if (share > 0.0) branches.influences[i] = axis_.influences(site(i));
+    for (Influence& one : branches.influences[i]) one.weight *= share;
+  });
+  for (std::uint32_t i = 0; i < lists_.size(); ++i) {
+    if (!branches.influences[i].empty()) branches.ambiguous.push_back(i);
+    branches.nearest.push_back(lists_[i].front());
+    branches.clusters +=
+        std::any_of(lists_[i].begin(), lists_[i].end(), [](const Candidate& c) { return c.at.cluster; });
+  }
+}
+
+}  // namespace
 
 Branches find_branches(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band,
                        int threads) {
-  const std::size_t count = mesh.points.size();
-  const SoftAxis axis(projectors);
-  const Neighbours neighbours(mesh);
-  const Facing facing(projectors, mesh, neighbours, threads);
-  const auto factors_at = [&](std::size_t i) {
-    std::vector<double> out;
-    for (std::uint32_t k = 0; k < projectors.size(); ++k) out.push_back(facing.factor(i, k));
-    return out;
-  };
-  CandidateLists lists(count);
-  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> hints;
-    for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
-    for (std::size_t i = begin; i < end; ++i) {
-      const Candidate nearest = nearest_of(projectors, facing, i, mesh.points[i], hints);
-      lists[i] = {nearest};
-      if (axis.may_be_ambiguous(mesh.points[i], nearest, factors_at(i), band))
-        lists[i] = candidates(projectors, facing, i, mesh.points[i], nearest, band);
-    }
-  });
-  Branches branches;
-  if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
-    branches.gated = Gate(projectors, mesh, neighbours, lists).run();
-  branches.influences.resize(count);
-  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::vector<double> factors = factors_at(i);
-      const double share = axis.ambiguity(mesh.points[i], lists[i], factors, band);
-      if (share > 0.0)
-        branches.influences[i] = axis.influences(mesh.points[i], lists[i], factors, kReach * band);
-      for (Influence& one : branches.influences[i]) one.weight *= share;
-    }
-  });
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (!branches.influences[i].empty()) branches.ambiguous.push_back(i);
-    branches.nearest.push_back(lists[i].front());
-    branches.clusters +=
-        std::any_of(lists[i].begin(), lists[i].end(), [](const Candidate& c) { return c.at.cluster; });
-  }
-  return branches;
+  return Search(projectors, mesh, band, threads).run();
 }
 
 }  // namespace tendril::bind

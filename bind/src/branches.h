@@ -23,16 +23,6 @@ struct Influence {
   double t, weight;
 };
 
-/// Neighbours by an edge of a face, ascending, of point i: `to[begin[i] .. begin[i + 1])`.
-struct Neighbours {
-  std::vector<std::uint32_t> begin, to;
-
-  explicit Neighbours(const PolygonMesh& mesh);
-  std::span<const std::uint32_t> of(std::size_t point) const {
-    return std::span(to).subspan(begin[point], begin[point + 1] - begin[point]);
-  }
-};
-
 struct Branches {
   std::vector<Candidate> nearest;                  ///< per point, of those not gated
   std::vector<std::vector<Influence>> influences;  ///< per point, none where the nearest alone counts

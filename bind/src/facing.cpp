@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 #include "parallel.h"
 
@@ -55,17 +54,17 @@ void Facing::look(std::span<const CurveProjector> projectors, const PolygonMesh&
   factor_.resize(mesh.points.size() * pairs_);
   distance_.resize(factor_.size());
   in_parts(mesh.points.size(), threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> hints;
-    for (const CurveProjector& projector : projectors) hints.push_back(projector.curve().knots().start());
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < pairs_; ++k) {
-        const Projection at = projectors[k].nearest(mesh.points[i], hints[k]);
-        hints[k] = at.t;
+    for (std::size_t k = 0; k < pairs_; ++k) {
+      const std::vector<Projection> nearest =
+          projectors[k].nearest(Points(mesh.points).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        const Projection& at = nearest[i - begin];
         const double scale = at.distance * normal[i].norm();
         const double cosine = scale > 0.0 ? (mesh.points[i] - at.point).dot(normal[i]) / scale : 0.0;
         factor_[i * pairs_ + k] = static_cast<float>(cosine);
         distance_[i * pairs_ + k] = static_cast<float>(at.distance);
       }
+    }
   });
   double away = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -84,29 +83,12 @@ void Facing::look(std::span<const CurveProjector> projectors, const PolygonMesh&
     f = static_cast<float>(reluctance(std::copysign(1.0, away) * static_cast<double>(f)));
 }
 
-/// The largest function below the one there is whose slope is bounded, by Dijkstra's algorithm.
 void Facing::soften(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours) {
-  const auto value = [&](std::uint32_t i) -> float& { return factor_[i * pairs_ + pair]; };
-  using Entry = std::pair<float, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
-    const auto near = neighbours.of(i);
-    if (std::any_of(near.begin(), near.end(), [&](std::uint32_t n) { return value(n) > value(i); }))
-      waiting.push({value(i), i});
-  }
-  while (!waiting.empty()) {
-    const auto [reached, i] = waiting.top();
-    waiting.pop();
-    if (reached > value(i)) continue;
-    for (const std::uint32_t next : neighbours.of(i)) {
-      const double way = (mesh.points[next] - mesh.points[i]).norm();
-      const double far = std::max(1e-30, static_cast<double>(distance_[next * pairs_ + pair]));
-      const auto most = static_cast<float>(static_cast<double>(value(i)) + kSlope * way / far);
-      if (!(most < value(next))) continue;
-      value(next) = most;
-      waiting.push({most, next});
-    }
-  }
+  bound_growth(
+      mesh, neighbours, [&](std::uint32_t i) -> float& { return factor_[i * pairs_ + pair]; },
+      [&](std::uint32_t i, double way) {
+        return kSlope * way / std::max(1e-30, static_cast<double>(distance_[i * pairs_ + pair]));
+      });
 }
 
 }  // namespace tendril::bind

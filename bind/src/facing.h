@@ -1,6 +1,8 @@
 #pragma once
 
-#include "branches.h"
+#include <tendril/curve/closest_point.h>
+
+#include "neighbours.h"
 
 /// Which curve-pairs a point may be inside of.
 namespace tendril::bind {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tendril::bind {
 namespace {
 
 constexpr int kNodesPerSpan = 2, kLooksPerSpan = 16;
-constexpr double kSamples = 12.0;  ///< per distance to the curve
+constexpr double kSamples = 12.0;  ///< on either side of a minimum on a straight line
 constexpr double kFaint = 1e-3;    ///< weight that fades to nothing
 
 /// 1 up to `from`, 0 from `to` on, with a continuous derivative.
@@ -38,6 +39,19 @@ double largest_speed(const BSpline& curve) {
   return speed;
 }
 
+Vec3 tangent(const BSpline& curve, double t) {
+  const Vec3 d1 = curve.derivative(t);
+  const double speed = d1.norm();
+  return speed > 0.0 ? Vec3(d1 / speed) : Vec3(Vec3::Zero());
+}
+
+/// Vector of the curvature; 0 where the curve stands still.
+Vec3 curvature(const BSpline& curve, double t) {
+  const Vec3 along = tangent(curve, t), d2 = curve.derivative(t, 2);
+  const double speed2 = curve.derivative(t).squaredNorm();
+  return speed2 > 0.0 ? Vec3((d2 - d2.dot(along) * along) / speed2) : Vec3(Vec3::Zero());
+}
+
 /// Weights that sum to 1; small ones fade out instead of being cut off.
 std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
   for (Influence& one : all) one.weight = std::max(0.0, one.weight / sum - kFaint);
@@ -50,10 +64,10 @@ std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
 
 }  // namespace
 
-SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
+SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : band_(band) {
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
-    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, 0.0};
+    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, {}, {}, 0.0};
     const auto look = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
@@ -61,6 +75,8 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
       one.lengths.push_back(one.points.empty() ? 0.0 : one.lengths.back() + step);
       one.parameters.push_back(t);
       one.points.push_back(point);
+      one.tangents.push_back(tangent(curve, t));
+      one.curvatures.push_back(curvature(curve, t));
       if (one.points.size() % (kLooksPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
     };
     look(curve.knots().start());
@@ -73,17 +89,22 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors) {
 
 /// Samples at multiples of a power of two, so that they do not move with p, marching both ways from each
 /// minimum to where the weight ends.
-std::vector<SoftAxis::Sample> SoftAxis::samples(const Curve& curve, const Vec3& p,
-                                                std::span<const double> minima, double nearest, double factor,
-                                                double width) const {
+std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t pair) const {
+  const Curve& curve = curves_[pair];
+  std::vector<double> minima;
+  for (const Candidate& c : site.all)
+    if (c.pair == pair && c.open) minima.push_back(c.at.t);
+  std::sort(minima.begin(), minima.end());
+  const double nearest = site.nearest().at.distance, factor2 = site.factors[pair] * site.factors[pair];
+  const double room = width(site) * (2.0 * nearest + width(site));
   const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
-  const double wanted = nearest / (kSamples * curve.speed);
+  const double wanted = std::sqrt(room) / (kSamples * curve.speed);
   const double step = std::exp2(std::floor(std::log2(std::max(wanted, 1e-6 * (end - start)))));
   std::vector<Sample> out;
   const auto sample = [&](double index) {
     const double t = std::clamp(index * step, start, end);
     const Vec3 c = curve.curve->value(t);
-    return Sample{t, (factor * (c - p).norm() - nearest) / (width * nearest), c};
+    return Sample{t, (factor2 * (c - site.p).squaredNorm() - nearest * nearest) / room, c};
   };
   double done = std::floor(start / step) - 1.0;
   const double last = std::ceil(end / step);
@@ -101,7 +122,30 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Curve& curve, const Vec3& 
       if (out.back().excess >= 1.0) break;
     }
   }
+  raise_behind_humps(minima, out);
   return out;
+}
+
+/// Places behind a hump of the distance from every open minimum count as if they were as far as the hump:
+/// those of a closed minimum are let in by degrees, not at once when the hump sinks below the end of the
+/// weight.
+void SoftAxis::raise_behind_humps(std::span<const double> minima, std::vector<Sample>& along) {
+  std::vector<double> ahead(along.size());
+  double most = std::numeric_limits<double>::infinity();
+  auto next = minima.begin();
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    if (next != minima.end() && *next <= along[k].t) most = 0.0;
+    while (next != minima.end() && *next <= along[k].t) ++next;
+    ahead[k] = most = std::max(most, along[k].excess);
+  }
+  most = std::numeric_limits<double>::infinity();
+  auto last = minima.rbegin();
+  for (std::size_t k = along.size(); k-- > 0;) {
+    if (last != minima.rend() && *last >= along[k].t) most = 0.0;
+    while (last != minima.rend() && *last >= along[k].t) ++last;
+    most = std::max(most, along[k].excess);
+    along[k].excess = std::min(ahead[k], most);
+  }
 }
 
 void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight) {
@@ -118,71 +162,97 @@ void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::
   }
 }
 
-std::vector<Influence> SoftAxis::influences(const Vec3& p, std::span<const Candidate> all,
-                                            std::span<const double> factors, double width) const {
+std::vector<Influence> SoftAxis::influences(const Site& site) const {
   std::vector<Influence> out;
-  std::vector<double> minima, weight;
+  std::vector<double> weight;
   double sum = 0.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
-    const Curve& curve = curves_[pair];
-    minima.clear();
-    for (const Candidate& c : all)
-      if (c.pair == pair && c.open) minima.push_back(c.at.t);
-    std::sort(minima.begin(), minima.end());
-    const double factor = factors[pair] / factors[all.front().pair];
-    lay_down(curve, samples(curve, p, minima, all.front().at.distance, factor, width), weight);
+    lay_down(curves_[pair], samples(site, pair), weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
-      if (weight[k] > 0.0) out.push_back({pair, curve.nodes[k], weight[k]});
+      if (weight[k] > 0.0) out.push_back({pair, curves_[pair].nodes[k], weight[k]});
     }
   }
   return sum > 0.0 ? normalized(std::move(out), sum) : out;
 }
 
-double SoftAxis::ambiguity(const Vec3& p, std::span<const Candidate> all, std::span<const double> factors,
-                           double band) const {
-  const Candidate& nearest = all.front();
-  const double distance2 = (p - nearest.at.point).squaredNorm(), distance = std::sqrt(distance2);
+/// Of the places from `first` to the next one: where the cosine changes its sign it is 0 in between.
+double SoftAxis::flatness(const Site& site, std::uint32_t pair, std::size_t first) const {
+  const Curve& curve = curves_[pair];
+  double away = std::numeric_limits<double>::infinity(), lambda = away, cosines[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3 way = site.p - curve.points[first + k];
+    const double distance = way.norm();
+    away = std::min(away, distance);
+    lambda = std::min(lambda, std::max(0.0, 1.0 - curve.curvatures[first + k].dot(way)));
+    cosines[k] = distance > 0.0 ? curve.tangents[first + k].dot(way) / distance : 0.0;
+  }
+  const bool turns = cosines[0] * cosines[1] <= 0.0;
+  const double cosine = turns ? 0.0 : std::min(std::abs(cosines[0]), std::abs(cosines[1]));
+  const double excess = std::max(0.0, site.factors[pair] * away - site.nearest().at.distance);
+  return excess / (band_ * site.scale) + (lambda + cosine) / band_;
+}
+
+double SoftAxis::flatness(const Site& site) const {
+  double least = 1.0;
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    const std::vector<Vec3>& points = curves_[pair].points;
+    const double reach = (site.nearest().at.distance + band_ * site.scale) / site.factors[pair];
+    bool near = (site.p - points[0]).squaredNorm() < reach * reach;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const bool before = near;
+      near = (site.p - points[k]).squaredNorm() < reach * reach;
+      if (before || near) least = std::min(least, flatness(site, pair, k - 1));
+    }
+  }
+  return least;
+}
+
+double SoftAxis::lack(const Site& site) const {
+  const Candidate& nearest = site.nearest();
+  const double distance2 = (site.p - nearest.at.point).squaredNorm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
-  double lack = nearest.at.strength / band;
+  double lack = std::min(nearest.at.strength / band_, flatness(site));
   const auto look = [&](std::uint32_t pair, double length, const Vec3& place) {
-    const bool same = pair == nearest.pair;
-    const double factor = factors[pair] / factors[nearest.pair];
-    const double apart2 = (place - nearest.at.point).squaredNorm();
+    const double factor = site.factors[pair], apart2 = (place - nearest.at.point).squaredNorm();
     // Too near to be told from the nearest itself, whose curvature has been looked at.
     if (!(apart2 > 1e-6 * distance2)) return;
-    const double apart = std::sqrt(apart2), strands = std::max(1.0, 2.0 * distance / apart);
-    const double excess = factor * factor * (place - p).squaredNorm() - distance2;
-    if (excess >= lack * band * strands * apart2) return;
-    const double round = same ? std::abs(length - here) / (2.0 * apart) : strands;
-    lack = std::min(lack, excess / (apart2 * band * std::clamp(round, 1.0, strands)));
+    const double apart = std::sqrt(apart2), strands = std::max(1.0, 2.0 * site.scale / apart);
+    const double excess = factor * factor * (place - site.p).squaredNorm() - distance2;
+    if (excess >= lack * band_ * strands * apart2) return;
+    const double round = pair == nearest.pair ? std::abs(length - here) / (2.0 * apart) : strands;
+    lack = std::min(lack, excess / (apart2 * band_ * std::clamp(round, 1.0, strands)));
   };
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
     for (std::size_t k = 0; k < curves_[pair].points.size(); ++k)
       look(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
-  for (const Candidate& c : all.subspan(1)) look(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
+  for (const Candidate& c : site.all.subspan(1)) look(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
+  return lack;
+}
+
+double SoftAxis::share(double lack) {
   return fall(lack, 0.08, 1.0);
 }
 
-bool SoftAxis::may_be_ambiguous(const Vec3& p, const Candidate& nearest, std::span<const double> factors,
-                                double band) const {
-  if (nearest.at.strength < band) return true;
-  const double distance = (p - nearest.at.point).norm();
+bool SoftAxis::may_be_ambiguous(const Site& site) const {
+  const Candidate& nearest = site.nearest();
+  if (nearest.at.strength < band_ || flatness(site) < 1.0) return true;
+  const double distance = (site.p - nearest.at.point).norm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
     const Curve& curve = curves_[pair];
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
-      double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - p).norm();
+      double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - site.p).norm();
       // Between samples another strand may come nearer; the nearest's own does not.
       const bool own =
           pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
       if (!own) {
         apart += curve.spacing;
-        away = std::max(distance, factors[pair] / factors[nearest.pair] * (away - curve.spacing));
+        away = std::max(distance, site.factors[pair] * (away - curve.spacing));
       }
-      const double strands = own ? 1.0 : std::max(1.0, 2.0 * distance / apart);
+      const double strands = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
       if (own && !(apart > 1e-3 * distance)) continue;
-      if ((away - distance) * (away + distance) < band * strands * apart * apart) return true;
+      if ((away - distance) * (away + distance) < band_ * strands * apart * apart) return true;
     }
   }
   return false;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <tendril/base/error.h>
+#include <tendril/bind/judge.h>
 #include <tendril/bind/mesh_follower.h>
 
 #include <cmath>
@@ -11,12 +12,12 @@ namespace tendril::bind {
 namespace {
 
 /// A tube round a line, wide enough to lie across all that an axis through its box does.
-PolygonMesh tube(int along, int round) {
+PolygonMesh tube(int along, int round, double height = 1.0, double depth = 0.6) {
   PolygonMesh mesh;
   for (int i = 0; i <= along; ++i)
     for (int k = 0; k < round; ++k) {
       const double a = 2 * std::numbers::pi * k / round;
-      mesh.points.emplace_back(4.0 * i / along, 1.0 * std::cos(a), 0.6 * std::sin(a));
+      mesh.points.emplace_back(4.0 * i / along, height * std::cos(a), depth * std::sin(a));
     }
   const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(i * round + k % round); };
   for (int i = 0; i < along; ++i)
@@ -145,6 +146,82 @@ TEST(ContinuousBinding, RefusesAProjectionThatNoWayOverTheMeshLeadsTo) {
   EXPECT_GT(reaches_a(lone).second, 0u);
   EXPECT_GT(reaches_a(joined).first, 0.01);
   EXPECT_EQ(reaches_a(joined).second, 0u);
+}
+
+/// Three loops of the axis within a tube: strands that cross each other close to the mesh, jumps between
+/// places close together, and foci.
+TEST(ContinuousBinding, DoesNotTearAboutLoops) {
+  const PolygonMesh mesh = tube(60, 40);
+  const test::Chain loops = test::tear_axes(mesh.points)[4].rest;
+  const CurvePair rest = test::tear_pose(loops, 0).rest;
+  const TearJudge judge({&rest, 1}, mesh, continuous(), {.refinements = 1, .least_edges = 20000});
+  for (int pose = 0; pose < test::kTearPoses; ++pose) {
+    const CurvePair posed = test::tear_pose(loops, pose).posed;
+    const JudgeReport report = judge.judge({&posed, 1});
+    for (const double growth : report.growth) EXPECT_LE(growth, 1.1) << pose;
+    EXPECT_LE(report.growth_of_max, 1.6) << pose;
+  }
+}
+
+/// Beside a jump from one place to another close by, the nearest projection may have a part only as far as it
+/// moves slowly.
+TEST(ContinuousBinding, LeavesOutTheNearestWhereItMovesFast) {
+  const PolygonMesh mesh = split_at_middles(tube(60, 60, 1.2, 1.2));
+  const CurvePair rest = test::tear_pose(test::tear_axes(mesh.points)[4].rest, 0).rest;
+  const Binding binding({&rest, 1}, mesh, continuous());
+  double alone = 0.0, fastest = 0.0;
+  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
+    const std::uint32_t a = mesh.corners[k], b = mesh.corners[k % 3 < 2 ? k + 1 : k - 2];
+    const Share in_a = binding.shares(a).front(), in_b = binding.shares(b).front();
+    const double moved = (rest.primary().value(in_a.record.t) - rest.primary().value(in_b.record.t)).norm() /
+                         (mesh.points[a] - mesh.points[b]).norm();
+    alone = std::max(alone, moved);
+    fastest = std::max(fastest, std::min(in_a.weight, in_b.weight) * moved);
+  }
+  EXPECT_GT(alone, 20.0);
+  EXPECT_LT(fastest, 2.5);
+}
+
+/// An axis like an 8, whose strands pass each other at a small gap; a strip through the gap.
+TEST(ContinuousBinding, StretchesNoMoreWhereStrandsPassCloser) {
+  const auto steepest = [&](double gap) {
+    test::Chain eight{{}, Vec3::UnitZ()};
+    for (int k = 0; k <= 40; ++k) {
+      const double a = std::numbers::pi * (1.8 * k / 40.0 - 0.4);
+      eight.points.emplace_back(std::sin(a), 0.5 * std::sin(2 * a), 0.5 * gap * std::cos(a));
+    }
+    const test::RestAndPose pair = test::tear_pose(eight, 0);
+    const PolygonMesh mesh = strip(line(Vec3(0.01, 0, -0.5), Vec3(0.01, 0, 0.5), 2001));
+    std::vector<Vec3> out(mesh.points.size());
+    Binding({&pair.rest, 1}, mesh, continuous()).update(pair.posed, out);
+    return longest_step(out) / longest_step(mesh.points);
+  };
+  EXPECT_LT(steepest(0.04), steepest(0.2));
+  EXPECT_LT(steepest(0.004), steepest(0.04));
+}
+
+/// A strip runs beside leg B of a U towards the bend. Leg A is within its reach, but no way over the mesh
+/// leads there; nearer the bend the places between the legs are within reach, and A's with them.
+TEST(ContinuousBinding, LetsInTheCurveBehindARefusedProjectionByDegrees) {
+  const test::Chain u = test::tear_axes(tube(10, 10).points)[3].rest;
+  const CurvePair rest = test::tear_pose(u, 0).rest;
+  const double middle = 0.5 * (rest.knots().start() + rest.knots().end());
+  const Vec3 a = u.points[7], b = u.points[u.points.size() - 8];
+  const auto step = [&](int count) {
+    const Vec3 from = a + 0.53 * (b - a);
+    const PolygonMesh mesh = strip(line(from, from + Vec3(0.9, 0, 0), count));
+    const Binding binding({&rest, 1}, mesh, continuous());
+    EXPECT_GT(binding.report().gated.size(), mesh.points.size() / 2);
+    std::vector<Vec3> part_of_a(mesh.points.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      for (const Share& share : binding.shares(i))
+        if (share.record.t < middle) part_of_a[i].x() += share.weight;
+    EXPECT_EQ(part_of_a.front().x(), 0.0);
+    EXPECT_GT(part_of_a.back().x(), 0.05);
+    return longest_step(part_of_a);
+  };
+  EXPECT_NEAR(step(401) / step(201), 0.5, 0.05);
+  EXPECT_NEAR(step(801) / step(401), 0.5, 0.05);
 }
 
 /// A body and a leg that starts at it, each with a curve-pair of its own.

@@ -21,7 +21,8 @@ enum class BindMode {
 struct BindOptions {
   BindMode mode = BindMode::nearest;
   /// BindMode::continuous: width of the zone beside a jump of the nearest projection, in units of the
-  /// distance to the axis there. Above 0, at most 1. Wider is gentler, and blends more of the mesh.
+  /// distance to the axis there, or of what the distance about is less half the way, where the mesh runs into
+  /// its own axis. Above 0, at most 1. Wider is gentler, and blends more of the mesh.
   double band = 0.25;
   /// 1 to 256; the same bits for any number.
   int threads = 1;

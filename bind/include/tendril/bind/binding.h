@@ -21,9 +21,9 @@ namespace tendril::bind {
 /// BindMode::continuous. A point's deformation is (1 - b) times that of its nearest projection and b times
 /// the mean over the places of the axes around it, weighted by their closeness alone, which nothing makes
 /// jump. b is 0 but near the cut locus of the axes, where the nearest projection jumps or splits, and 1
-/// there: it follows the distance along which the nearest stays the nearest. Points with b = 0 are bound as
-/// by BindMode::nearest, to the last bit. A projection counts only where a way over the mesh joins it to a
-/// point it is the nearest of.
+/// there: it follows the distance along which the nearest stays the nearest, and falls along no edge of the
+/// mesh faster than over the band. Points with b = 0 are bound as by BindMode::nearest, to the last bit. A
+/// projection counts only where a way over the mesh joins it to a point it is the nearest of.
 ///
 /// An update goes span by span through records in binding order: points sorted by curve-pair and span, those
 /// off the normal plane of their projection last, otherwise as they were given. The same bits for any number
