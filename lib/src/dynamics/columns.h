@@ -2,10 +2,26 @@
 
 #include <tendril/curve/frames.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <new>
 #include <vector>
 
 namespace tendril {
+
+/// Memory that begins with a cache line: vectors of eight numbers then lie in one, not across two.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* at, std::size_t) { ::operator delete(at, kLine); }
+  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+};
 
 /// Numbers in a row, with some zeros before the first and after the last: loops over nodes may look at both
 /// neighbours without asking whether they are there.
@@ -23,7 +39,7 @@ class Column {
  private:
   static constexpr std::size_t kFront = 8;
   static constexpr std::size_t kBack = 8;
-  std::vector<double> values_;
+  std::vector<double, LineAllocator<double>> values_;
 };
 
 /// Vectors, one column for each component.

@@ -19,108 +19,85 @@ struct Wanted {
   bool viscous, third, energy, near;
 };
 
-/// One edge at one node: the edge's components in the node frame, stiffness and rest, and what comes of it.
-struct End {
-  V3 e, e_rate;
-  double k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
-};
-struct NodeMotion {
-  V3 l, m, t, t_rate;
-  double spin;
-};
 template <bool Near>
 TENDRIL_INLINE lanes::Deviation deviation(double x, double y, double z) {
   if constexpr (Near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
   return lanes::deviation(x, std::sqrt(y * y + z * z));
 }
 
-/// Adds what one edge does; false where it is not near and was taken for it.
+/// The springs of one node between its two edges.
+struct Node {
+  double k_l, k_m, k_t, rest_l, rest_m, rest_t;
+};
+
+/// k angle / (sin angle cos angle) for the third angle, less its rest.
 template <Wanted W>
-TENDRIL_INLINE bool bend(const End& s, const NodeMotion& f, V3& edge, V3& tangent, double& g_spin,
-                         double& energy, double& heat) {
-  const double x = lanes::dot(s.e, f.l);
-  const double y = lanes::dot(s.e, f.m);
-  const double z = lanes::dot(s.e, f.t);
-  const double across2 = x * x + y * y;
-  const lanes::Deviation l = deviation<W.near>(x, y, z);
-  const lanes::Deviation m = deviation<W.near>(y, x, z);
-  double fl = s.k_l * (l.angle - s.rest_l);
-  double fm = s.k_m * (m.angle - s.rest_m);
-  if constexpr (W.energy) energy += 0.5 * (fl * (l.angle - s.rest_l) + fm * (m.angle - s.rest_m));
-  if constexpr (W.viscous) {
-    // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-    const double l_rate =
-        (lanes::dot(s.e_rate, f.l) - lanes::dot(f.l, f.t_rate) * z + f.spin * y) * l.inverse_cosine;
-    const double m_rate =
-        (lanes::dot(s.e_rate, f.m) - lanes::dot(f.m, f.t_rate) * z - f.spin * x) * m.inverse_cosine;
-    heat += s.viscosity * (s.k_l * l_rate * l_rate + s.k_m * m_rate * m_rate);
-    fl += s.viscosity * s.k_l * l_rate;
-    fm += s.viscosity * s.k_m * m_rate;
-  }
-  const double gl = fl * l.inverse_cosine;
-  const double gm = fm * m.inverse_cosine;
-  const V3 across = gl * f.l + gm * f.m;
-  g_spin += gl * y - gm * x;
-  double g = 0.0;
-  if constexpr (W.third && W.near) {
-    g = s.k_t * lanes::asin_ratio(across2);
-  } else if constexpr (W.third) {
-    const double sine = std::sqrt(across2);
-    const double strain = lanes::angle(sine, z) - s.rest_t;
-    if constexpr (W.energy) energy += 0.5 * s.k_t * strain * strain;
-    // d(angle) = -(de.t + e.dt) / sin(angle); at angle 0 the limit for a rest of 0, nothing at the tip of a
-    // rest cone.
-    const double tip = s.rest_t == 0.0 ? s.k_t : 0.0;
-    g = sine > 1e-12 ? s.k_t * strain / (sine > 1e-12 ? sine : 1.0) : tip;
-  }
-  edge = across - g * f.t;
-  tangent = tangent - z * across - g * s.e;
-  // An edge that is not there is the vector 0.
-  return across2 <= lanes::kNearSquare && z >= 0.0 && s.rest_t == 0.0;
+TENDRIL_INLINE double third(const Node& s, double across2, double z, double& energy) {
+  if constexpr (W.near) return s.k_t * lanes::asin_slope(across2);
+  const double sine = std::sqrt(across2);
+  const double strain = lanes::angle(sine, z) - s.rest_t;
+  if constexpr (W.energy) energy += s.k_t * strain * strain;
+  // At angle 0 the limit for a rest of 0, nothing at the tip of a rest cone.
+  const double tip = s.rest_t == 0.0 ? s.k_t : 0.0;
+  const bool away = sine > 1e-12 && z > 0.0;
+  return away ? s.k_t * strain / (away ? sine * z : 1.0) : tip;
 }
 
+/// With d half the difference of the unit edges b and a at a free node, x = d.l and y = d.m are the sines of
+/// the deviations of b, those of a with the other sign, and d.t = 0: both edges' springs are
+///   E = k_l (asin x - r_l)^2 + k_m (asin y - r_m)^2 + k_t (asin |d| - r_t)^2,
+/// and as d.t = 0, a tangent that turns with its director does not change x and y: dx = l.dd + y ds, dy =
+/// m.dd - x ds. The gradient by b is half that by d, that by a its opposite. False where an angle was not
+/// near and was taken for it.
 template <Wanted W>
 TENDRIL_INLINE bool bend_nodes(const Model& model, std::size_t from, std::size_t end, Workspace& work) {
-  const Reader e(work.e), e_rate(work.e_rate), m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
-  const Writer before(work.g_before), after(work.g_after), to_tangent(work.g_tangent);
-  double* __restrict to_spin = work.g_spin.data();
-  double* __restrict to_energy = work.energy.data();
-  double* __restrict to_heat = work.heat.data();
-  const double* __restrict spin = work.spin.data();
-  const Model::BendingSide::View a = model.bending.side[0].view();
-  const Model::BendingSide::View b = model.bending.side[1].view();
-  constexpr V3 kNone{0.0, 0.0, 0.0};
+  const Reader e(work.e), e_rate(work.e_rate), m(work.frame.y), t(work.frame.z);
+  const Writer to(work.g_bend);
+  double *__restrict to_spin = work.g_spin.data(), *__restrict to_energy = work.energy.data(),
+         *__restrict to_heat = work.heat.data();
+  const double* __restrict spin = work.spin.data(), * __restrict viscosity = model.viscosity.data();
+  const Model::Bending::View k = model.bending.view();
   std::int64_t far = 0;
   TENDRIL_LOOP
   for (std::size_t i = from; i < end; ++i) {
+    const Node s{k.k_l[i], k.k_m[i], k.k_t[i], k.rest_l[i], k.rest_m[i], k.rest_t[i]};
     const V3 mi = m.at(i);
     const V3 ti = t.at(i);
-    const NodeMotion f{lanes::cross(mi, ti), mi, ti, W.viscous ? t_rate.at(i) : kNone,
-                       W.viscous ? spin[i] : 0.0};
-    const End first{e.at(i - 1),   W.viscous ? e_rate.at(i - 1) : kNone,
-                    a.k_l[i],      a.k_m[i],
-                    a.k_t[i],      a.rest_l[i],
-                    a.rest_m[i],   a.rest_t[i],
-                    a.viscosity[i]};
-    const End second{e.at(i),       W.viscous ? e_rate.at(i) : kNone,
-                     b.k_l[i],      b.k_m[i],
-                     b.k_t[i],      b.rest_l[i],
-                     b.rest_m[i],   b.rest_t[i],
-                     b.viscosity[i]};
-    V3 to_before, to_after;
-    V3 tangent = kNone;
-    double g_spin = 0.0;
-    double energy = 0.0;
-    double heat = 0.0;
-    const bool near_first = bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
-    const bool near_second = bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
-    far |= (near_first & near_second) ? 0 : 1;
-    before.put(i, to_before);
-    after.put(i, to_after);
-    to_tangent.put(i, tangent);
-    to_spin[i] = g_spin;
+    const V3 li = lanes::cross(mi, ti);
+    const V3 a = e.at(i - 1);
+    const V3 b = e.at(i);
+    const V3 d = 0.5 * (b - a);
+    const double x = lanes::dot(d, li);
+    const double y = lanes::dot(d, mi);
+    const double across2 = x * x + y * y;
+    const double z = W.near ? 1.0 : 0.5 * lanes::dot(a + b, ti);
+    const lanes::Deviation l = deviation<W.near>(x, y, z);
+    const lanes::Deviation n = deviation<W.near>(y, x, z);
+    const double strain_l = l.angle - s.rest_l;
+    const double strain_m = n.angle - s.rest_m;
+    double fl = s.k_l * strain_l;
+    double fm = s.k_m * strain_m;
+    double energy = W.energy ? fl * strain_l + fm * strain_m : 0.0;
+    if constexpr (W.viscous) {
+      const V3 d_rate = 0.5 * (e_rate.at(i) - e_rate.at(i - 1));
+      const double l_rate = (lanes::dot(d_rate, li) + spin[i] * y) * l.inverse_cosine;
+      const double m_rate = (lanes::dot(d_rate, mi) - spin[i] * x) * n.inverse_cosine;
+      to_heat[i] = 2.0 * viscosity[i] * (s.k_l * l_rate * l_rate + s.k_m * m_rate * m_rate);
+      fl += viscosity[i] * s.k_l * l_rate;
+      fm += viscosity[i] * s.k_m * m_rate;
+    }
+    double gl = fl * l.inverse_cosine;
+    double gm = fm * n.inverse_cosine;
+    to_spin[i] = 2.0 * (gl * y - gm * x);
+    if constexpr (W.third) {
+      const double g = third<W>(s, across2, z, energy);
+      gl += g * x;
+      gm += g * y;
+    }
+    to.put(i, gl * li + gm * mi);
     if constexpr (W.energy) to_energy[i] = energy;
-    if constexpr (W.viscous) to_heat[i] = heat;
+    const bool near = across2 <= lanes::kNearSquare && s.rest_t == 0.0;
+    far |= near || s.k_l + s.k_m + s.k_t == 0.0 ? 0 : 1;
   }
   return !W.near || far == 0;
 }
@@ -222,7 +199,7 @@ TENDRIL_LANES bool twist_with_energy(const Model& model, const State& reference,
 }
 constexpr Loops kTwist{twist_near, twist_far}, kTwistViscously{twist_viscously_near, twist_viscously_far};
 
-/// Adds what the twist springs give the nodes.
+/// What the twist springs give the nodes.
 TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
   const Reader from(work.twist_tangent);
   const Writer to(work.g_tangent);
@@ -230,9 +207,7 @@ TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
   double* __restrict spin = work.g_spin.data();
   TENDRIL_LOOP
   for (std::size_t i = segment.first; i < segment.end; ++i) {
-    to.x[i] += from.x[i - 1] + from.x[i];
-    to.y[i] += from.y[i - 1] + from.y[i];
-    to.z[i] += from.z[i - 1] + from.z[i];
+    to.put(i, from.at(i - 1) + from.at(i));
     spin[i] += torque[i - 1] - torque[i];
   }
 }
@@ -262,9 +237,9 @@ TENDRIL_LANES void stretch_edges(const Model& model, Workspace& work) {
   for (std::size_t i = 0; i < model.nodes; ++i) g[i] = stiffness[i] * (length[i] - rest[i]);
 }
 
-double resist_stretch(const Model& model, Workspace& work) {
+double resist_stretch(const Model& model, const Segment& segment, Workspace& work) {
   double heat = 0.0;
-  for (std::size_t i = 0; i < model.nodes; ++i) {
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
     const double resistance = model.viscosity[i] * model.stretch[i] * work.length_rate[i];
     heat += resistance * work.length_rate[i];
     work.g_length[i] += resistance;
@@ -277,13 +252,13 @@ double resist_stretch(const Model& model, Workspace& work) {
 Evaluation elastic(const Model& model, const State& reference, bool viscous, Workspace& work, double& heat) {
   heat = 0.0;
   stretch_edges(model, work);
-  if (viscous) heat += resist_stretch(model, work);
   for (const Segment& s : model.segments) {
+    const bool resists = viscous && s.viscous;
+    if (resists) heat += resist_stretch(model, s, work);
     if (!s.twist) {
       if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok()) return at;
       continue;
     }
-    const bool resists = viscous && s.viscous;
     run(resists ? kViscously : s.third ? kThrice : kPlainly, model, reference, s, work);
     if (resists) heat += sum_of(work.heat, s);
     run(resists ? kTwistViscously : kTwist, model, reference, s, work);
@@ -291,6 +266,8 @@ Evaluation elastic(const Model& model, const State& reference, bool viscous, Wor
     if (resists) heat += sum_of(work.heat, s);
     gather_twist(s, work);
   }
+  for (const std::size_t node : model.bending.held)
+    pull_on_held(model, node, viscous && model.viscosity[node] > 0.0, work, heat);
   for (const std::size_t node : model.bending.held_hinges) bend_held(model, node, work);
   return {};
 }
@@ -312,12 +289,14 @@ Evaluation elastic_energy(const Model& model, const State& reference, Workspace&
     }
     energy += sum_of(work.energy, s);
   }
+  double none = 0.0;
+  for (const std::size_t node : model.bending.held) energy += pull_on_held(model, node, false, work, none);
   for (const std::size_t node : model.bending.held_hinges) energy += bend_held(model, node, work);
   return {};
 }
 
 void relax(Workspace& work) {
-  for (auto* vectors : {&work.g_before, &work.g_after, &work.g_tangent}) vectors->set_zero();
+  for (auto* vectors : {&work.g_bend, &work.g_before, &work.g_after, &work.g_tangent}) vectors->set_zero();
   for (auto* numbers : {&work.g_length, &work.g_spin}) numbers->set_zero();
 }
 

@@ -318,34 +318,28 @@ void System::Model::lay_out_springs() {
     else
       segments.push_back(own);
   }
-  for (BendingSide& side : bending.side)
-    for (auto* numbers :
-         {&side.k_l, &side.k_m, &side.k_t, &side.rest_l, &side.rest_m, &side.rest_t, &side.viscosity})
-      numbers->assign(nodes, 0.0);
-  bending.hinge.assign(nodes, 0.0);
-  for (const NodeRange& rod : rods) lay_out_bending(rod);
+  for (auto* numbers : {&bending.k_l, &bending.k_m, &bending.k_t, &bending.rest_l, &bending.rest_m,
+                        &bending.rest_t, &bending.hinge})
+    numbers->assign(nodes, 0.0);
+  for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 
-void System::Model::lay_out_bending(const NodeRange& rod) {
-  for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (k == 0 ? !has_before(i) : !has_after(i)) continue;
-      const std::size_t edge = i + k - 1;
-      const std::size_t end = 2 * edge + 1 - k;
-      BendingSide& side = bending.side[k];
-      side.k_l[i] = bend_l[i];
-      side.k_m[i] = bend_m[i];
-      side.k_t[i] = bend_t[i];
-      side.rest_l[i] = rest_l[end];
-      side.rest_m[i] = rest_m[end];
-      side.rest_t[i] = rest_t[end];
-      side.viscosity[i] = viscosity[edge];
-    }
-    if (has_twist(i)) continue;
-    if (holds_frame(i))
-      bending.held_hinges.push_back(i);
-    else if (has_before(i) && has_after(i))
+void System::Model::lay_out_bending(std::size_t i) {
+  if (holds_frame(i)) {
+    (has_twist(i) ? bending.held : bending.held_hinges).push_back(i);
+  } else if (has_before(i) && has_after(i)) {
+    if (!has_twist(i)) {
       bending.hinge[i] = bend_l[i] + bend_t[i];
+      return;
+    }
+    const std::size_t before = 2 * i - 1;
+    const std::size_t after = 2 * i;
+    bending.k_l[i] = bend_l[i];
+    bending.k_m[i] = bend_m[i];
+    bending.k_t[i] = bend_t[i];
+    bending.rest_l[i] = 0.5 * (rest_l[after] - rest_l[before]);
+    bending.rest_m[i] = 0.5 * (rest_m[after] - rest_m[before]);
+    bending.rest_t[i] = 0.5 * (rest_t[after] + rest_t[before]);
   }
 }
 

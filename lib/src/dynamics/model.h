@@ -2,7 +2,6 @@
 
 #include <tendril/dynamics/system.h>
 
-#include <array>
 #include <vector>
 
 namespace tendril {
@@ -60,21 +59,21 @@ struct System::Model {
   };
   std::vector<Segment> segments;
 
-  /// The bending springs once more, as loops over nodes read them: stiffness 0 where there is no edge.
-  struct BendingSide {
-    std::vector<double> k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
+  /// The bending springs once more, as loops over nodes read them. At a free node with two edges a and b the
+  /// tangent halves the angle between them: in its frame b deviates by as much as a does, the other way.
+  /// Springs and rest angles are those of b; where there are not two edges, or the frame is held, all are 0.
+  struct Bending {
+    std::vector<double> k_l, k_m, k_t, rest_l, rest_m, rest_t;
+    std::vector<double> hinge;             ///< of a rod without twist
+    std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
+    std::vector<std::size_t> held;         ///< nodes with a held frame of rods with twist
+
     struct View {
-      const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
+      const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t;
     };
     View view() const {
-      return {k_l.data(),    k_m.data(),    k_t.data(),      rest_l.data(),
-              rest_m.data(), rest_t.data(), viscosity.data()};
+      return {k_l.data(), k_m.data(), k_t.data(), rest_l.data(), rest_m.data(), rest_t.data()};
     }
-  };
-  struct Bending {
-    std::array<BendingSide, 2> side;       ///< with the edge before the node, with that after it
-    std::vector<double> hinge;             ///< per node of a rod without twist; 0 at ends and held frames
-    std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
   };
   Bending bending;
 
@@ -111,7 +110,7 @@ struct System::Model {
   void choose_twist();
   void choose_forces();
   void lay_out_springs();
-  void lay_out_bending(const NodeRange& rod);
+  void lay_out_bending(std::size_t node);
   std::string twist_source(std::size_t rod) const;
 };
 

@@ -49,10 +49,9 @@ Component along_m(const Frame& f, const EdgeAngles& at) {
 
 /// Adds the spring W(q) with q one of the components at node `side`: W'' grad grad^T + W' hess.
 void add(const Component& q, std::size_t side, double slope, double curvature, SpringStiffness& s) {
-  if (side == 0) {
-    s.g_t += slope * q.t;
-    s.g_theta += slope * q.theta;
-  }
+  s.g_e += slope * q.e;
+  s.g_t[side] += slope * q.t;
+  if (side == 0) s.g_theta += slope * q.theta;
   const Vec3 e = curvature * q.e;
   const Vec3 t = curvature * q.t;
   s.ee += e * q.e.transpose();
@@ -137,7 +136,7 @@ void add_twist(const Model& model, std::size_t i, const Workspace& work, double 
   const double k = 1.0 + ta.dot(tb);
   const Vec3 c = ta.cross(tb) / k;
   const double torque = model.twist[i] * strain;
-  s.g_t += torque * c;
+  for (Vec3& g : s.g_t) g += torque * c;
   s.g_theta -= torque;
   add_twist_gradient(model.twist[i], c, s);
   const Mat3 by_a = -(cross_matrix(tb) + c * tb.transpose()) / k;
@@ -198,7 +197,7 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Works
 }
 
 void ride(const Vec3& t, const Vec3& t0, SpringStiffness& s) {
-  const Vec3 g = s.g_t;
+  const Vec3 g = s.g_t[0];
   const double g_theta = s.g_theta;
   Eigen::Matrix4d first;
   first << t0.dot(t) * Mat3::Identity() - t * t0.transpose(), t.cross(t0), t0.cross(t).transpose(), t0.dot(t);

@@ -95,7 +95,7 @@ double anchor_power(const Model& model, const Workspace& work) {
   return power;
 }
 
-/// In eight sums, each in the order of the nodes: vector code that gives the same bits as any other.
+/// In eight sums, each in the order of the nodes, so that it may be vector code.
 TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
   const double *__restrict vx = work.v.x.data(), *__restrict vy = work.v.y.data(),
                *__restrict vz = work.v.z.data(), *__restrict spin = work.spin.data();
