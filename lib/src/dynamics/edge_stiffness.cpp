@@ -107,7 +107,8 @@ void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Wor
 
 /// Gradient by the unit edge i: of its springs, and through its tangents.
 Vec3 gradient_by_edge(std::size_t i, const Workspace& work, const SpringStiffness& s) {
-  return s.g_e + Vec3(work.g_bisector[i]) + Vec3(work.g_bisector[i + 1]);
+  return s.g_e + work.inverse_bisector[i] * work.g_tangent[i] +
+         work.inverse_bisector[i + 1] * work.g_tangent[i + 1];
 }
 
 /// Where the positions and angles of a neighbourhood stand, and whether their rows act.

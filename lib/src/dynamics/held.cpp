@@ -88,7 +88,7 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Worksp
 }  // namespace
 
 double pull_on_held(const Model& model, std::size_t node, bool viscous, Workspace& work, double& heat) {
-  const Held at{node, work.frame[node], viscous ? Vec3(work.t_rate[node]) : Vec3(Vec3::Zero()),
+  const Held at{node, work.frame[node], viscous ? work.t_rate(node) : Vec3(Vec3::Zero()),
                 viscous ? work.spin[node] : 0.0, viscous};
   const auto pull = [&](std::size_t side, Columns3& to) {
     const Given given = pull_at(model, at, side, work);

@@ -17,12 +17,14 @@ using lanes::Writer;
 /// Without a twist state bending is isotropic and straight at rest: both springs together are K phi^2, phi
 /// the angle that either edge makes with the tangent between them, half of that between the unit edges a and
 /// b. With d = (b - a) / 2, of length sin(phi), the gradient by d is 2 K phi / (sin(phi) cos(phi)) d. False
-/// when two edges fold back (or are not near and were taken for it).
+/// when two edges fold back (or are not near and were taken for it). Beside it the stretch of the edges.
 template <bool Energy, bool Near>
 TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, Workspace& work) {
   const Reader e(work.e);
   const Writer to(work.g_bend);
-  double* __restrict energy = work.energy.data();
+  double* __restrict energy = work.energy.data(), * __restrict g_length = work.g_length.data();
+  const double *__restrict length = work.length.data(), *__restrict rest = model.rest_length.data(),
+               *__restrict k_stretch = model.stretch.data();
   const double* __restrict stiffness = model.bending.hinge.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
@@ -46,6 +48,9 @@ TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size
       if constexpr (Energy) energy[i] = stiffness[i] * phi * phi;
     }
     to.put(i, (stiffness[i] * slope) * d);
+    const double strain = length[i] - rest[i];
+    g_length[i] = k_stretch[i] * strain;
+    if constexpr (Energy) energy[i] += 0.5 * g_length[i] * strain;
     bad |= good || stiffness[i] == 0.0 ? 0 : 1;
   }
   return bad == 0;

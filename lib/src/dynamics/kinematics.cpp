@@ -74,11 +74,12 @@ struct Carried {
 /// Tangents of nodes [first, end) from their edges (2.7, normalised), with rates; true when the edges of one
 /// fold back. Directors of nodes with twist: the reference carried to the tangent by the smallest rotation,
 /// turned by theta; with rates, also what the carried director turns by itself,
-/// ((t_s x t) . t') / (1 + t_s . t). True, too, when a tangent turned too far for that.
-template <bool Rates, bool Twist>
+/// ((t_s x t) . t') / (1 + t_s . t) = t_s . (t x t') / (1 + t_s . t). True, too, when a tangent turned too
+/// far for that.
+template <bool Rates, bool Twist, bool Near>
 TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
   const Reader e(work.e), e_rate(work.e_rate);
-  const Writer to_t(work.frame.z), to_rate(work.t_rate), to_m(work.frame.y);
+  const Writer to_t(work.frame.z), to_turning(work.turning), to_m(work.frame.y);
   double* __restrict inverse = work.inverse_bisector.data(), * __restrict connection = work.connection.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
@@ -88,14 +89,14 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
     const double b = 1.0 / length;
     const V3 t = b * sum;
     V3 turning{};
-    inverse[i] = b;
+    const bool folded = !(length >= kFoldBack);
+    inverse[i] = folded ? 0.0 : b;
     to_t.put(i, t);
     if constexpr (Rates) {
-      const V3 s = e_rate.at(i - 1) + e_rate.at(i);
-      turning = b * (s - lanes::dot(t, s) * t);
-      to_rate.put(i, turning);
+      turning = lanes::cross(t, b * (e_rate.at(i - 1) + e_rate.at(i)));
+      to_turning.put(i, turning);
     }
-    bad |= length >= kFoldBack ? 0 : 1;
+    bad |= folded ? 1 : 0;
     if constexpr (!Twist) continue;
     const V3 f{from.tangent[3 * i], from.tangent[3 * i + 1], from.tangent[3 * i + 2]};
     const V3 d{from.director[3 * i], from.director[3 * i + 1], from.director[3 * i + 2]};
@@ -103,9 +104,10 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
     const double s = 1.0 / c;
     const V3 carried = d - (lanes::dot(t, d) * s) * (f + t);
     const V3 beside = lanes::cross(t, carried);
-    const lanes::SineCosine turn = lanes::sine_cosine(from.theta[i - first]);
+    const double theta = from.theta[i - first];
+    const lanes::SineCosine turn = Near ? lanes::near_sine_cosine(theta) : lanes::sine_cosine(theta);
     to_m.put(i, turn.cosine * carried + turn.sine * beside);
-    if constexpr (Rates) connection[i] = s * lanes::dot(lanes::cross(f, t), turning);
+    if constexpr (Rates) connection[i] = s * lanes::dot(f, turning);
     // Within a step no tangent turns further than 126 degrees: a longer way could take the wrong side.
     bad |= c > kTurnedTooFar ? 0 : 1;
   }
@@ -113,16 +115,30 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
 }
 
 TENDRIL_LANES bool direct_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<false, true>(first, end, from, work);
+  return direct<false, true, false>(first, end, from, work);
 }
-TENDRIL_LANES bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true, true>(first, end, from, work);
+TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, false>(first, end, from, work);
+}
+TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, true>(first, end, from, work);
 }
 TENDRIL_LANES bool bisect_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<false, false>(first, end, from, work);
+  return direct<false, false, false>(first, end, from, work);
 }
 TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true, false>(first, end, from, work);
+  return direct<true, false, false>(first, end, from, work);
+}
+
+/// Whether all are at most kNearTurn.
+TENDRIL_LANES bool turned_little(const double* theta, std::size_t count) {
+  std::int64_t far = 0;
+  for (std::size_t i = 0; i < count; ++i) far |= std::fabs(theta[i]) <= lanes::kNearTurn ? 0 : 1;
+  return far == 0;
+}
+
+bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, work);
 }
 
 TENDRIL_LANES bool finite(const double* values, std::size_t count) {
@@ -160,9 +176,9 @@ void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
   work.inverse_bisector[i] = 0.0;
   work.connection[i] = 0.0;
   if (!rates) return;
-  const Vec3 turning = f.z.cross(work.t_rate[ride.parent]) + work.spin[ride.parent] * f.z;
-  work.t_rate.set(i, turning.cross(frame.z));
+  const Vec3 turning = Vec3(work.turning[ride.parent]) + work.spin[ride.parent] * f.z;
   work.spin[i] = turning.dot(frame.z);
+  work.turning.set(i, turning - work.spin[i] * frame.z);
 }
 
 void take_held_frames(const Model& model, Workspace& work) {
@@ -172,8 +188,8 @@ void take_held_frames(const Model& model, Workspace& work) {
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     const AnchorPose& pose = work.pose[a];
     work.frame.set(i, pose.frame);
-    work.t_rate.set(i, pose.angular_velocity.cross(pose.frame.z));
     work.spin[i] = pose.angular_velocity.dot(pose.frame.z);
+    work.turning.set(i, pose.angular_velocity - work.spin[i] * pose.frame.z);
     work.inverse_bisector[i] = 0.0;
     work.connection[i] = 0.0;
   }
@@ -201,7 +217,7 @@ Evaluation find_bad_tangent(const Model& model, const State& reference, const Sy
                             const Workspace& work) {
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     if (model.holds_frame(i)) continue;
-    if (!(1.0 / work.inverse_bisector[i] >= kFoldBack)) return {Outcome::fold_back, i};
+    if (work.inverse_bisector[i] == 0.0) return {Outcome::fold_back, i};
     if (segment.twist && !(1.0 + reference.tangent[i].dot(work.frame.z[i]) > kTurnedTooFar))
       return {Outcome::turned_too_far, i};
   }
@@ -242,7 +258,7 @@ bool all_finite(const Eigen::VectorXd& values) {
 
 System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()), frame(model.nodes) {
   const std::size_t n = model.nodes;
-  for (auto* vectors : {&p, &v, &e, &e_rate, &t_rate, &g_bend, &g_before, &g_after, &g_bisector, &g_tangent,
+  for (auto* vectors : {&p, &v, &e, &e_rate, &turning, &g_bend, &g_before, &g_after, &g_tangent,
                         &twist_tangent, &edge_force, &force})
     *vectors = Columns3(n);
   for (auto* numbers : {&length, &inverse_length, &length_rate, &inverse_bisector, &spin, &connection,

@@ -132,10 +132,11 @@ void System::Model::flatten_rest_angles(const NodeRange& range) {
     rest_twist[i] = twist_angle(rest_frame[i], rest_frame[i + 1]);
     for (std::size_t side = 0; side < 2; ++side) {
       const EdgeAngles a = edge_angles(edge / rest_length[i], rest_frame[i + side]);
+      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
+      if (!(a.t > kStraight)) continue;
       rest_l[2 * i + side] = a.l;
       rest_m[2 * i + side] = a.m;
-      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
-      rest_t[2 * i + side] = a.t > kStraight ? a.t : 0.0;
+      rest_t[2 * i + side] = a.t;
     }
   }
 }
@@ -273,13 +274,18 @@ void System::Model::choose_twist() {
 void System::Model::choose_forces() {
   inverse_mass.assign(nodes, 0.0);
   inverse_inertia.assign(nodes, 0.0);
+  free_inertia.assign(nodes, 0.0);
   damped_mass.assign(nodes, 0.0);
   damped_inertia.assign(nodes, 0.0);
   std::vector<char> passes_on(nodes, 0);
   for (const Ride& ride : rides) passes_on[ride.root] = ride.reaction;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!holds_position(i)) inverse_mass[i] = 1.0 / moved_mass[i];
-    if (has_twist(i) && !holds_frame(i)) inverse_inertia[i] = 1.0 / inertia[i];
+    if (has_twist(i) && !holds_frame(i)) {
+      free_inertia[i] = inertia[i];
+      inverse_inertia[i] = 1.0 / inertia[i];
+    }
+    if (holds_position(i)) held_positions.push_back(i);
     if (holds_position(i) && !passes_on[i]) driven_positions.push_back(i);
     if (holds_frame(i) && !passes_on[i]) driven_frames.push_back(i);
     if (inverse_mass[i] > 0.0) damped_mass[i] = damping[i] * moved_mass[i];
@@ -309,10 +315,14 @@ void System::Model::lay_out_springs() {
     const bool third =
         std::any_of(bend_t.begin() + static_cast<std::ptrdiff_t>(rod.first),
                     bend_t.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0.0; });
-    const Segment own{rod.first, end, has_twist(rod.first), third, scene.rods[r].viscosity > 0.0};
+    const bool straight = std::all_of(rest_t.begin() + static_cast<std::ptrdiff_t>(2 * rod.first),
+                                      rest_t.begin() + static_cast<std::ptrdiff_t>(2 * end),
+                                      [](double rest) { return rest == 0.0; });
+    const Segment own{rod.first, end, has_twist(rod.first), third, straight, scene.rods[r].viscosity > 0.0};
     const bool alike =
         !segments.empty() && segments.back().twist == own.twist &&
-        (!own.twist || (segments.back().third == own.third && segments.back().viscous == own.viscous));
+        (!own.twist || (segments.back().third == own.third && segments.back().straight == own.straight &&
+                        segments.back().viscous == own.viscous));
     if (alike)
       segments.back().end = end;
     else
@@ -320,7 +330,7 @@ void System::Model::lay_out_springs() {
   }
   for (auto* numbers : {&bending.k_l, &bending.k_m, &bending.k_t, &bending.rest_l, &bending.rest_m,
                         &bending.rest_t, &bending.hinge})
-    numbers->assign(nodes, 0.0);
+    *numbers = Column(nodes);
   for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 

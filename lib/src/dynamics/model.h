@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "columns.h"
+
 namespace tendril {
 
 /// A scene on flat arrays. Arrays per edge have an entry per node; that of a rod's last node is not used, so
@@ -33,7 +35,9 @@ struct System::Model {
   std::vector<char> begins, ends;                   ///< a rod
   std::vector<double> inverse_mass;                 ///< of what moves with the node; 0 where it is held
   std::vector<double> inverse_inertia;              ///< 0 where the frame is held, and without twist
+  std::vector<double> free_inertia;                 ///< likewise
   std::vector<double> damped_mass, damped_inertia;  ///< times the damping; 0 where held
+  std::vector<std::size_t> held_positions;          ///< by node
   /// Held nodes, but for those that pass what they feel to the node they ride on.
   std::vector<std::size_t> driven_positions, driven_frames;
 
@@ -53,9 +57,10 @@ struct System::Model {
   /// Neighbouring rods with the same kind of springs, as one range of nodes [first, end).
   struct Segment {
     std::size_t first, end;
-    bool twist;    ///< has the twist state
-    bool third;    ///< has springs on the angle to the tangent
-    bool viscous;  ///< some spring resists
+    bool twist;     ///< has the twist state
+    bool third;     ///< has springs on the angle to the tangent
+    bool straight;  ///< at rest
+    bool viscous;   ///< some spring resists
   };
   std::vector<Segment> segments;
 
@@ -63,17 +68,10 @@ struct System::Model {
   /// tangent halves the angle between them: in its frame b deviates by as much as a does, the other way.
   /// Springs and rest angles are those of b; where there are not two edges, or the frame is held, all are 0.
   struct Bending {
-    std::vector<double> k_l, k_m, k_t, rest_l, rest_m, rest_t;
-    std::vector<double> hinge;             ///< of a rod without twist
+    Column k_l, k_m, k_t, rest_l, rest_m, rest_t;
+    Column hinge;                          ///< of a rod without twist
     std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
     std::vector<std::size_t> held;         ///< nodes with a held frame of rods with twist
-
-    struct View {
-      const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t;
-    };
-    View view() const {
-      return {k_l.data(), k_m.data(), k_t.data(), rest_l.data(), rest_m.data(), rest_t.data()};
-    }
   };
   Bending bending;
 

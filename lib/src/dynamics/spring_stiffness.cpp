@@ -102,7 +102,7 @@ void add_bending(const Model& model, std::size_t i, std::size_t side, double vis
   double l = a.l - model.rest_l[end];
   double m = a.m - model.rest_m[end];
   if (viscosity > 0.0) {
-    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate[node], work.spin[node]);
+    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate(node), work.spin[node]);
     l += viscosity * rate.l;
     m += viscosity * rate.m;
   }
@@ -174,7 +174,7 @@ SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State&
   if (viscosity > 0.0) {
     const Vec3 ta = work.frame.z[i];
     const Vec3 tb = work.frame.z[i + 1];
-    const Vec3 turning = Vec3(work.t_rate[i]) + Vec3(work.t_rate[i + 1]);
+    const Vec3 turning = work.t_rate(i) + work.t_rate(i + 1);
     strain += viscosity * (work.spin[i + 1] - work.spin[i] + ta.cross(tb).dot(turning) / (1.0 + ta.dot(tb)));
   }
   add_twist(model, i, work, strain, s);
