@@ -105,8 +105,8 @@ TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
   return -power;
 }
 
-TENDRIL_INLINE bool is_number(double x) {
-  return std::fabs(x) <= std::numeric_limits<double>::max();
+TENDRIL_INLINE std::int64_t no_number(double x) {
+  return std::fabs(x) <= std::numeric_limits<double>::max() ? 0 : 1;
 }
 
 /// v' of all nodes, from the forces on them, or from those along the edges where there is nothing else; 0
@@ -128,7 +128,7 @@ TENDRIL_INLINE bool accelerate(const Model& model, const Workspace& work, double
     dv[3 * i] = a.x;
     dv[3 * i + 1] = a.y;
     dv[3 * i + 2] = a.z;
-    bad |= (is_number(a.x) & is_number(a.y) & is_number(a.z)) ? 0 : 1;
+    bad |= no_number(a.x) | no_number(a.y) | no_number(a.z);
   }
   return bad == 0;
 }
@@ -162,7 +162,7 @@ TENDRIL_LANES bool turn(const Model& model, const Model::Segment& segment, const
     const double to = -s * g_spin[i] - free * damping[i] * spin[i];
     turned[i - segment.first] = by;
     spun[i - segment.first] = to;
-    bad |= (is_number(by) & is_number(to)) ? 0 : 1;
+    bad |= no_number(by) | no_number(to);
   }
   return bad == 0;
 }
