@@ -88,7 +88,7 @@ template <Wanted W>
 TENDRIL_INLINE Slopes deviation_slopes(const Columns& c, std::size_t i, const Axes& f, double x, double y,
                                        double z, double& energy, double& heat) {
   if constexpr (W.near && W.straight)
-    return {c.k_l[i] * (x * lanes::asin_slope(x * x)), c.k_m[i] * (y * lanes::asin_slope(y * y))};
+    return {x * (c.k_l[i] * lanes::asin_slope(x * x)), y * (c.k_m[i] * lanes::asin_slope(y * y))};
   const lanes::Deviation l = deviation<W>(x, y, z);
   const lanes::Deviation m = deviation<W>(y, x, z);
   const double strain_l = l.angle - c.rest_l[i];
@@ -274,7 +274,7 @@ double sum_of(const Column& column, const Segment& segment) {
   return sum;
 }
 
-/// What the last loops left where no edge is must not reach the next rod's first node.
+/// What the loops left where no edge is must not reach the next rod's first node.
 void clear_ends(const Model& model, Workspace& work) {
   for (const NodeRange& rod : model.rods) {
     const std::size_t last = rod.first + rod.count - 1;
@@ -300,15 +300,15 @@ double resist_stretch(const Model& model, const Segment& segment, Workspace& wor
 Evaluation elastic(const Model& model, const State& reference, Inner inner, Workspace& work, double& heat) {
   heat = 0.0;
   for (const Segment& s : model.segments) {
-    const bool resists = inner.viscous && s.viscous;
-    if (!s.twist) {
-      if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok()) return at;
-      continue;
-    }
-    run(loops_of(s, resists), model, reference, s, work);
-    clear_ends(model, work);
-    if (resists) heat += resist_stretch(model, s, work) + sum_of(work.heat, s);
-    (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
+    if (s.twist)
+      run(loops_of(s, inner.viscous && s.viscous), model, reference, s, work);
+    else if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok())
+      return at;
+  }
+  clear_ends(model, work);
+  for (const Segment& s : model.segments) {
+    if (inner.viscous && s.viscous) heat += resist_stretch(model, s, work) + sum_of(work.heat, s);
+    if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
   }
   for (const std::size_t node : model.bending.held)
     pull_on_held(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
@@ -317,16 +317,17 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, Work
 }
 
 Evaluation elastic_energy(const Model& model, const State& reference, Workspace& work, double& energy) {
+  for (const Segment& s : model.segments) {
+    if (s.twist)
+      with_energy(model, reference, s.first, s.end, work);
+    else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok())
+      return at;
+  }
+  clear_ends(model, work);
   energy = 0.0;
   for (const Segment& s : model.segments) {
-    if (s.twist) {
-      with_energy(model, reference, s.first, s.end, work);
-      clear_ends(model, work);
-      gather_springs(model, s, work);
-    } else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok()) {
-      return at;
-    }
     energy += sum_of(work.energy, s);
+    if (s.twist) gather_springs(model, s, work);
   }
   double none = 0.0;
   for (const std::size_t node : model.bending.held) energy += pull_on_held(model, node, false, work, none);

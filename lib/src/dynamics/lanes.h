@@ -4,8 +4,9 @@
 
 /// Loops of this module that a compiler turns into vector code: marked with TENDRIL_LANES they are compiled
 /// for several vector units, and the widest one that the machine has is taken when the program starts. Those
-/// with fused multiply-adds use them, so that the last bits can differ between machines; on one machine they
-/// do not differ between runs.
+/// with fused multiply-adds use them, so that the last bits can differ between machines, and between the same
+/// rod alone and among others (a loop's last few numbers are no vector, and fuse in another order). The same
+/// scene gives the same bits on one machine, wherever its numbers lie in memory.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TENDRIL_LANES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))

@@ -56,7 +56,8 @@ void check_rod(const Rod& rod, std::size_t index) {
                          "a rest shape with a frame at every node");
 }
 
-constexpr double kStraight = 1e-9;  // rest angle below which a node counts as straight [rad]
+constexpr std::size_t kModelRank = 60;  // of the first column, behind those of a workspace
+constexpr double kStraight = 1e-9;      // rest angle below which a node counts as straight [rad]
 
 }  // namespace
 
@@ -272,11 +273,9 @@ void System::Model::choose_twist() {
 }
 
 void System::Model::choose_forces() {
-  inverse_mass.assign(nodes, 0.0);
-  inverse_inertia.assign(nodes, 0.0);
-  free_inertia.assign(nodes, 0.0);
-  damped_mass.assign(nodes, 0.0);
-  damped_inertia.assign(nodes, 0.0);
+  std::size_t rank = kModelRank;
+  for (auto* numbers : {&inverse_mass, &inverse_inertia, &free_inertia, &damped_mass, &damped_inertia})
+    *numbers = Column(nodes, rank++);
   std::vector<char> passes_on(nodes, 0);
   for (const Ride& ride : rides) passes_on[ride.root] = ride.reaction;
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -328,9 +327,10 @@ void System::Model::lay_out_springs() {
     else
       segments.push_back(own);
   }
+  std::size_t rank = kModelRank + 5;
   for (auto* numbers : {&bending.k_l, &bending.k_m, &bending.k_t, &bending.rest_l, &bending.rest_m,
                         &bending.rest_t, &bending.hinge})
-    *numbers = Column(nodes);
+    *numbers = Column(nodes, rank++);
   for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 

@@ -26,18 +26,19 @@ struct System::Model {
   // Per node.
   std::vector<Vec3> rest_p;
   std::vector<Frame> rest_frame;
-  std::vector<double> mass, inertia, bend_l, bend_m, bend_t, damping;
-  std::vector<double> moved_mass;                   ///< mass with that of the roots merged into the node
-  std::vector<Vec3> offset;                         ///< (0, r a, r b): q - p in the rest node frame
-  std::vector<int> twist_index;                     ///< place among the twist states, -1 where left out
-  std::vector<char> anchored;                       ///< named by an anchor of the scene
-  std::vector<char> held_position, held_frame;      ///< by an anchor, or by riding on a parent
-  std::vector<char> begins, ends;                   ///< a rod
-  std::vector<double> inverse_mass;                 ///< of what moves with the node; 0 where it is held
-  std::vector<double> inverse_inertia;              ///< 0 where the frame is held, and without twist
-  std::vector<double> free_inertia;                 ///< likewise
-  std::vector<double> damped_mass, damped_inertia;  ///< times the damping; 0 where held
-  std::vector<std::size_t> held_positions;          ///< by node
+  std::vector<double> mass, inertia, bend_l, bend_m, bend_t;
+  std::vector<double> damping;
+  std::vector<double> moved_mass;               ///< mass with that of the roots merged into the node
+  std::vector<Vec3> offset;                     ///< (0, r a, r b): q - p in the rest node frame
+  std::vector<int> twist_index;                 ///< place among the twist states, -1 where left out
+  std::vector<char> anchored;                   ///< named by an anchor of the scene
+  std::vector<char> held_position, held_frame;  ///< by an anchor, or by riding on a parent
+  std::vector<char> begins, ends;               ///< a rod
+  Column inverse_mass;                          ///< of what moves with the node; 0 where it is held
+  Column inverse_inertia;                       ///< 0 where the frame is held, and without twist
+  Column free_inertia;                          ///< likewise
+  Column damped_mass, damped_inertia;           ///< times the damping; 0 where held
+  std::vector<std::size_t> held_positions;      ///< by node
   /// Held nodes, but for those that pass what they feel to the node they ride on.
   std::vector<std::size_t> driven_positions, driven_frames;
 

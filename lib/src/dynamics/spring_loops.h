@@ -16,7 +16,7 @@ struct Loops {
 };
 
 /// Stretches of this length are done again with the far loop where the near one does not hold.
-constexpr std::size_t kStretch = 64;
+constexpr std::size_t kStretch = 128;
 
 inline bool run(const Loops& loops, const System::Model& model, const State& reference,
                 const System::Model::Segment& segment, System::Workspace& work) {
