@@ -68,10 +68,9 @@ TENDRIL_INLINE double third_slope(double k, double rest, double across2, double 
   const double sine = std::sqrt(across2);
   const double strain = lanes::angle(sine, z) - rest;
   if constexpr (W.energy) energy += k * strain * strain;
-  // At angle 0 the limit for a rest of 0, nothing at the tip of a rest cone.
-  const double tip = rest == 0.0 ? k : 0.0;
+  // At angle 0 what it is multiplied with is 0.
   const bool away = sine > 1e-12 && z > 0.0;
-  return away ? k * strain / (away ? sine * z : 1.0) : tip;
+  return away ? k * strain / (away ? sine * z : 1.0) : 0.0;
 }
 
 template <Wanted W>
