@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 #include <tendril/dynamics/forces.h>
 
+#include <cstdint>
+#include <set>
+#include <vector>
+
 #include "support/rods.h"
 
 namespace tendril {
@@ -88,6 +92,30 @@ TEST(Forces, AreTheGradientWhetherAnglesAreSmallOrNot) {
             std::abs(scene.rods[0].mass[static_cast<std::size_t>(k / 3)] * rate[3 * n + k] + gradient[k]));
       EXPECT_LT(worst, 1e-14 * gradient.head(3 * n).cwiseAbs().maxCoeff()) << "stirred by " << by;
     }
+}
+
+// A vector loop must not begin where an address suits it: its first and last numbers round differently.
+TEST(Forces, DoNotDependOnWhereNumbersLie) {
+  Random random(20);
+  Scene scene;
+  for (const int edges : {36, 29}) scene.rods.push_back(test::straight_rod(edges, 1e6, 0.3));
+  scene.twist = Scene::Twist::everywhere;
+  const System system(scene);
+  const State state = test::stirred(system, random, 1e-4);
+  std::vector<std::vector<char>> between;  // shifts what is allocated next
+  std::set<std::uintptr_t> places;
+  std::vector<Eigen::VectorXd> states, rates;
+  for (std::size_t shift = 0; shift < 24; ++shift) {
+    between.emplace_back(16 * shift + 1);
+    const auto work = system.make_workspace();
+    const Eigen::VectorXd& y = states.emplace_back(state.y);
+    Eigen::VectorXd rate;
+    ASSERT_TRUE(system.derivative(state, 0.0, y, rate, *work).ok());
+    places.insert(reinterpret_cast<std::uintptr_t>(y.data()) % 64);
+    rates.push_back(std::move(rate));
+    EXPECT_EQ(rates.back(), rates.front()) << "y at " << y.data();
+  }
+  EXPECT_GT(places.size(), 1u);
 }
 
 TEST_P(EveryEnergy, GradientMatchesDifferencesWithHeldFrames) {

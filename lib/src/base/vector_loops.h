@@ -5,7 +5,7 @@
 /// operation is elementwise and none is contracted, the bits do not depend on which.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TENDRIL_LANES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
+#define TENDRIL_LANES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define TENDRIL_LANES
 #endif

@@ -24,6 +24,7 @@ struct Bounds {
   double slack;  ///< margin of every rejection: far above rounding, so that the outcome does not depend on
                  ///< the bound a search started from
   double blur;   ///< distance between the local curve and BSpline::value
+  double proof;  ///< a root is settled when the bound on the distances around it is so close
 };
 
 /// One Bezier sub-piece.
@@ -147,7 +148,8 @@ class Search {
     const auto [least_slope, most_slope] = slope_range<P>(interval);
     if (least_slope > interval.slope_error) return take_end(piece, interval.low, interval.points.front());
     if (most_slope < -interval.slope_error) return take_end(piece, interval.high, interval.points.back());
-    if (const double bend = convexity<P>(interval); bend > 0.0) return take_root(piece, interval, bend);
+    if (const double bend = convexity<P>(interval); bend > 0.0 && take_root(piece, interval, bend))
+      return true;
     const double least = std::sqrt(std::max(0.0, interval.least));
     if (std::sqrt(interval.most) - least > bounds_.flat && interval.depth < kMaxDepth) return false;
     evaluate(piece.parameter(interval.low));
@@ -165,8 +167,10 @@ class Search {
 
   bool take_root(const Piece<P>& piece, const Interval<P>& interval, double bend) {
     const Root root = stationary<P>(interval);
+    const double least = lower_bound<P>(root, interval.reach, bend);
+    if (root.distance - least > bounds_.proof && interval.depth < kMaxDepth) return false;
     candidate(piece.parameter(interval.parameter(root.s)), root.distance);
-    prove(lower_bound<P>(root, interval.reach, bend));
+    prove(least);
     return true;
   }
 

@@ -130,12 +130,19 @@ struct ProjectionBatch<P>::Work {
   void take(Best& to, std::size_t piece, std::size_t i) const {
     if (items.fate[i] == search::fate::dropped) return;
     to.lower(items.upper[i]);
-    if (items.fate[i] == search::fate::open) {
+    if (items.fate[i] == search::fate::open || !proven(i)) {
       to.open = true;
       return;
     }
     to.least = std::min(to.least, items.least[i] - to.blur);
     to.candidate(pieces[piece].parameter(items.s[i]), items.distance[i], piece);
+  }
+
+  /// Whether the search of one point would settle the root.
+  bool proven(std::size_t i) const {
+    const double gap = items.distance[i] - items.least[i];
+    return items.fate[i] != search::fate::root || gap <= data.bounds_for(data.diagonal).proof ||
+           gap <= data.bounds(point(lane_of[i])).proof;
   }
 
   Vec3 point(std::size_t lane) const { return {group.x[lane], group.y[lane], group.z[lane]}; }

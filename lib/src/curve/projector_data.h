@@ -46,7 +46,7 @@ struct CurveProjector::Data {
   search::Bounds bounds(const Vec3& p) const { return bounds_for(size(p)); }
   search::Bounds bounds_for(double size) const {
     const double blur = 12 * (curve.degree() + 1) * search::kUnit * reach;
-    return {1e-14 * size, 1e-13 * size + 4.0 * blur, blur};
+    return {1e-14 * size, 1e-13 * size + 4.0 * blur, blur, 1e-13 * size + blur};
   }
 
   /// Speed below rounding of the control points' differences, in a span of that length.

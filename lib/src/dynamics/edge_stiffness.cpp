@@ -87,19 +87,28 @@ ByEdges by_edges(const Neighbourhood& n, const Workspace& work, const SpringStif
   return b;
 }
 
-/// Curvature of the tangents t(e), each once: with the edge that begins at its node, the last with the last
-/// edge.
-void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Workspace& work, ByEdges& b) {
-  const auto add_at = [&](std::size_t side) {
+/// Curvature of the tangents t(e). What the edge's own springs give along a tangent counts with this edge;
+/// what all springs at the node give across it counts once, with the edge that begins there, at the last node
+/// with the last edge. (Across a free tangent the bending of its two edges cancels.)
+void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Workspace& work,
+                           const SpringStiffness& s, ByEdges& b) {
+  for (std::size_t side = 0; side < 2; ++side) {
     const std::size_t node = n.frame_of[side];
-    if (model.holds_frame(node)) return;
-    const Mat3 c = curvature_of_unit(work.frame.z[node], work.inverse_bisector[node], work.g_tangent[node]);
+    if (model.holds_frame(node) || (side == 0 && n.rides)) continue;
+    const Vec3 t = work.frame.z[node];
+    Vec3 g = s.g_t[side].dot(t) * t;
+    if (side == 0 || !model.has_after(node)) g += work.g_tangent[node];
+    const Mat3 c = curvature_of_unit(t, work.inverse_bisector[node], g);
     for (const std::size_t x : {n.before(side), n.after(side)})
       for (const std::size_t y : {n.before(side), n.after(side)})
         if (x <= y) b.k[x][y] += c;
-  };
-  if (!n.rides) add_at(0);
-  if (!model.has_after(n.frame_of[1])) add_at(1);
+  }
+}
+
+/// Gradient by the unit edge i: of its springs, and through its tangents.
+Vec3 gradient_by_edge(std::size_t i, const Workspace& work, const SpringStiffness& s) {
+  return s.g_e + work.inverse_bisector[i] * work.g_tangent[i] +
+         work.inverse_bisector[i + 1] * work.g_tangent[i + 1];
 }
 
 /// Where the positions and angles of a neighbourhood stand, and whether their rows act.
@@ -171,14 +180,13 @@ void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, con
                     const Workspace& work, bool viscous, EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
   SpringStiffness springs = spring_stiffness(model, i, reference, work, viscous);
+  const Vec3 g_edge = gradient_by_edge(i, work, springs);
   if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], springs);
   ByEdges edges = by_edges(n, work, springs);
-  add_tangent_curvature(model, n, work, edges);
+  add_tangent_curvature(model, n, work, springs, edges);
   to_nodes(n, work, edges, springs, to);
   put(n, n.own, n.own,
-      curvature_of_unit(work.e[i], work.inverse_length[i], work.g_edge(i)) +
-          stretch_stiffness(model, i, work),
-      to);
+      curvature_of_unit(work.e[i], work.inverse_length[i], g_edge) + stretch_stiffness(model, i, work), to);
   place(model, n, i, to);
 }
 

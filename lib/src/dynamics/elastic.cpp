@@ -14,227 +14,257 @@ using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
 
-/// What a loop over springs does beside the gradient, and whether it takes every angle for a small one.
+/// What a loop over springs does beside the gradient (viscous, third, energy), and what it takes for granted:
+/// that all are straight at rest, that all angles are small.
 struct Wanted {
-  bool viscous, third, energy, near;
+  bool viscous = false, third = false, energy = false, straight = false, near = false;
 };
 
-/// One edge at one node: the edge's components in the node frame, stiffness and rest, and what comes of it.
-struct End {
-  V3 e, e_rate;
-  double k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
+/// What a loop reads and writes; see bend and twist.
+struct Columns {
+  TENDRIL_INLINE Columns(const Model& model, const State& from, Workspace& work)
+      : k_l(model.bending.k_l.data()),
+        k_m(model.bending.k_m.data()),
+        k_t(model.bending.k_t.data()),
+        rest_l(model.bending.rest_l.data()),
+        rest_m(model.bending.rest_m.data()),
+        rest_t(model.bending.rest_t.data()),
+        viscosity(model.viscosity.data()),
+        k_stretch(model.stretch.data()),
+        rest_length(model.rest_length.data()),
+        k_twist(model.twist.data()),
+        rest_twist(model.rest_twist.data()),
+        reference(from.twist.data()),
+        spin(work.spin.data()),
+        length(work.length.data()),
+        e(work.e),
+        e_rate(work.e_rate),
+        m(work.frame.y),
+        t(work.frame.z),
+        turning(work.turning),
+        g_bend(work.g_bend),
+        twist_tangent(work.twist_tangent),
+        g_length(work.g_length.data()),
+        g_spin(work.g_spin.data()),
+        twist_torque(work.twist_torque.data()),
+        energy(work.energy.data()),
+        heat(work.heat.data()) {}
+
+  const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
+  const double* __restrict k_stretch, * __restrict rest_length, * __restrict k_twist, * __restrict rest_twist, * __restrict reference, * __restrict spin, * __restrict length;
+  const Reader e, e_rate, m, t, turning;
+  const Writer g_bend, twist_tangent;
+  double* __restrict g_length, * __restrict g_spin, * __restrict twist_torque, * __restrict energy, * __restrict heat;
 };
-struct NodeMotion {
-  V3 l, m, t, t_rate;
-  double spin;
+
+struct Axes {
+  V3 l, m, t;
 };
-template <bool Near>
+
+/// k (angle - rest) / (sin angle cos angle), the third spring's slope over the sine.
+template <Wanted W>
+TENDRIL_INLINE double third_slope(double k, double rest, double across2, double z, double& energy) {
+  if constexpr (W.near) return k * lanes::asin_slope(across2);
+  const double sine = std::sqrt(across2);
+  const double strain = lanes::angle(sine, z) - rest;
+  if constexpr (W.energy) energy += k * strain * strain;
+  // At angle 0 what it is multiplied with is 0.
+  const bool away = sine > 1e-12 && z > 0.0;
+  return away ? k * strain / (away ? sine * z : 1.0) : 0.0;
+}
+
+template <Wanted W>
 TENDRIL_INLINE lanes::Deviation deviation(double x, double y, double z) {
-  if constexpr (Near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
+  if constexpr (W.near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
   return lanes::deviation(x, std::sqrt(y * y + z * z));
 }
 
-/// Adds what one edge does; false where it is not near and was taken for it.
+/// Slopes of the two deviations, k (asin x - rest) / cos, with what resists.
+struct Slopes {
+  double l, m;
+};
 template <Wanted W>
-TENDRIL_INLINE bool bend(const End& s, const NodeMotion& f, V3& edge, V3& tangent, double& g_spin,
-                         double& energy, double& heat) {
-  const double x = lanes::dot(s.e, f.l);
-  const double y = lanes::dot(s.e, f.m);
-  const double z = lanes::dot(s.e, f.t);
-  const double across2 = x * x + y * y;
-  const lanes::Deviation l = deviation<W.near>(x, y, z);
-  const lanes::Deviation m = deviation<W.near>(y, x, z);
-  double fl = s.k_l * (l.angle - s.rest_l);
-  double fm = s.k_m * (m.angle - s.rest_m);
-  if constexpr (W.energy) energy += 0.5 * (fl * (l.angle - s.rest_l) + fm * (m.angle - s.rest_m));
+TENDRIL_INLINE Slopes deviation_slopes(const Columns& c, std::size_t i, const Axes& f, double x, double y,
+                                       double z, double& energy, double& heat) {
+  if constexpr (W.near && W.straight)
+    return {x * (c.k_l[i] * lanes::asin_slope(x * x)), y * (c.k_m[i] * lanes::asin_slope(y * y))};
+  const lanes::Deviation l = deviation<W>(x, y, z);
+  const lanes::Deviation m = deviation<W>(y, x, z);
+  const double strain_l = l.angle - c.rest_l[i];
+  const double strain_m = m.angle - c.rest_m[i];
+  double fl = c.k_l[i] * strain_l;
+  double fm = c.k_m[i] * strain_m;
+  if constexpr (W.energy) energy += fl * strain_l + fm * strain_m;
   if constexpr (W.viscous) {
-    // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-    const double l_rate =
-        (lanes::dot(s.e_rate, f.l) - lanes::dot(f.l, f.t_rate) * z + f.spin * y) * l.inverse_cosine;
-    const double m_rate =
-        (lanes::dot(s.e_rate, f.m) - lanes::dot(f.m, f.t_rate) * z - f.spin * x) * m.inverse_cosine;
-    heat += s.viscosity * (s.k_l * l_rate * l_rate + s.k_m * m_rate * m_rate);
-    fl += s.viscosity * s.k_l * l_rate;
-    fm += s.viscosity * s.k_m * m_rate;
+    const V3 d_rate = 0.5 * (c.e_rate.at(i) - c.e_rate.at(i - 1));
+    const double l_rate = (lanes::dot(d_rate, f.l) + c.spin[i] * y) * l.inverse_cosine;
+    const double m_rate = (lanes::dot(d_rate, f.m) - c.spin[i] * x) * m.inverse_cosine;
+    heat += 2.0 * c.viscosity[i] * (c.k_l[i] * l_rate * l_rate + c.k_m[i] * m_rate * m_rate);
+    fl += c.viscosity[i] * c.k_l[i] * l_rate;
+    fm += c.viscosity[i] * c.k_m[i] * m_rate;
   }
-  const double gl = fl * l.inverse_cosine;
-  const double gm = fm * m.inverse_cosine;
-  const V3 across = gl * f.l + gm * f.m;
-  g_spin += gl * y - gm * x;
-  double g = 0.0;
-  if constexpr (W.third && W.near) {
-    g = s.k_t * lanes::asin_ratio(across2);
-  } else if constexpr (W.third) {
-    const double sine = std::sqrt(across2);
-    const double strain = lanes::angle(sine, z) - s.rest_t;
-    if constexpr (W.energy) energy += 0.5 * s.k_t * strain * strain;
-    // d(angle) = -(de.t + e.dt) / sin(angle); at angle 0 the limit for a rest of 0, nothing at the tip of a
-    // rest cone.
-    const double tip = s.rest_t == 0.0 ? s.k_t : 0.0;
-    g = sine > 1e-12 ? s.k_t * strain / (sine > 1e-12 ? sine : 1.0) : tip;
-  }
-  edge = across - g * f.t;
-  tangent = tangent - z * across - g * s.e;
-  // An edge that is not there is the vector 0.
-  return across2 <= lanes::kNearSquare && z >= 0.0 && s.rest_t == 0.0;
+  return {fl * l.inverse_cosine, fm * m.inverse_cosine};
 }
 
+/// Bending at node i. With d half the difference of the unit edges b and a at a free node, x = d.l and y =
+/// d.m are the sines of the deviations of b, those of a with the other sign, and d.t = 0. Both edges
+/// together:
+///   E = k_l (asin x - r_l)^2 + k_m (asin y - r_m)^2 + k_t (asin |d| - r_t)^2.
+/// As d.t = 0, a tangent that turns with its director does not change x and y: dx = l.dd + y ds, dy = m.dd -
+/// x ds. The gradient by b is half that by d, that by a its opposite. False where an angle was not small and
+/// was taken for it.
 template <Wanted W>
-TENDRIL_INLINE bool bend_nodes(const Model& model, std::size_t from, std::size_t end, Workspace& work) {
-  const Reader e(work.e), e_rate(work.e_rate), m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
-  const Writer before(work.g_before), after(work.g_after), to_tangent(work.g_tangent);
-  double* __restrict to_spin = work.g_spin.data();
-  double* __restrict to_energy = work.energy.data();
-  double* __restrict to_heat = work.heat.data();
-  const double* __restrict spin = work.spin.data();
-  const Model::BendingSide::View a = model.bending.side[0].view();
-  const Model::BendingSide::View b = model.bending.side[1].view();
-  constexpr V3 kNone{0.0, 0.0, 0.0};
-  std::int64_t far = 0;
-  TENDRIL_LOOP
-  for (std::size_t i = from; i < end; ++i) {
-    const V3 mi = m.at(i);
-    const V3 ti = t.at(i);
-    const NodeMotion f{lanes::cross(mi, ti), mi, ti, W.viscous ? t_rate.at(i) : kNone,
-                       W.viscous ? spin[i] : 0.0};
-    const End first{e.at(i - 1),   W.viscous ? e_rate.at(i - 1) : kNone,
-                    a.k_l[i],      a.k_m[i],
-                    a.k_t[i],      a.rest_l[i],
-                    a.rest_m[i],   a.rest_t[i],
-                    a.viscosity[i]};
-    const End second{e.at(i),       W.viscous ? e_rate.at(i) : kNone,
-                     b.k_l[i],      b.k_m[i],
-                     b.k_t[i],      b.rest_l[i],
-                     b.rest_m[i],   b.rest_t[i],
-                     b.viscosity[i]};
-    V3 to_before, to_after;
-    V3 tangent = kNone;
-    double g_spin = 0.0;
-    double energy = 0.0;
-    double heat = 0.0;
-    const bool near_first = bend<W>(first, f, to_before, tangent, g_spin, energy, heat);
-    const bool near_second = bend<W>(second, f, to_after, tangent, g_spin, energy, heat);
-    far |= (near_first & near_second) ? 0 : 1;
-    before.put(i, to_before);
-    after.put(i, to_after);
-    to_tangent.put(i, tangent);
-    to_spin[i] = g_spin;
-    if constexpr (W.energy) to_energy[i] = energy;
-    if constexpr (W.viscous) to_heat[i] = heat;
+TENDRIL_INLINE bool bend(const Columns& c, std::size_t i, const Axes& f, double& energy, double& heat) {
+  const V3 a = c.e.at(i - 1);
+  const V3 b = c.e.at(i);
+  const V3 d = 0.5 * (b - a);
+  const double x = lanes::dot(d, f.l);
+  const double y = lanes::dot(d, f.m);
+  const double z = W.near ? 1.0 : 0.5 * lanes::dot(a + b, f.t);
+  const double across2 = x * x + y * y;
+  Slopes g = deviation_slopes<W>(c, i, f, x, y, z, energy, heat);
+  c.g_spin[i] = 2.0 * (g.l * y - g.m * x);
+  bool straight = true;
+  if constexpr (W.third) {
+    const double rest = W.straight ? 0.0 : c.rest_t[i];
+    const double k = third_slope<W>(c.k_t[i], rest, across2, z, energy);
+    g.l += k * x;
+    g.m += k * y;
+    straight = rest == 0.0;
   }
-  return !W.near || far == 0;
+  c.g_bend.put(i, g.l * f.l + g.m * f.m);
+  const bool near = (across2 <= lanes::kNearSquare) & straight;
+  return near | (c.k_l[i] + c.k_m[i] + c.k_t[i] == 0.0);
 }
 
-TENDRIL_LANES bool bend_near(const Model& model, const State&, std::size_t first, std::size_t end,
-                             Workspace& work) {
-  return bend_nodes<Wanted{false, false, false, true}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_far(const Model& model, const State&, std::size_t first, std::size_t end,
-                            Workspace& work) {
-  return bend_nodes<Wanted{false, false, false, false}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_thrice_near(const Model& model, const State&, std::size_t first, std::size_t end,
-                                    Workspace& work) {
-  return bend_nodes<Wanted{false, true, false, true}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_thrice_far(const Model& model, const State&, std::size_t first, std::size_t end,
-                                   Workspace& work) {
-  return bend_nodes<Wanted{false, true, false, false}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_viscously_near(const Model& model, const State&, std::size_t first, std::size_t end,
-                                       Workspace& work) {
-  return bend_nodes<Wanted{true, true, false, true}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_viscously_far(const Model& model, const State&, std::size_t first, std::size_t end,
-                                      Workspace& work) {
-  return bend_nodes<Wanted{true, true, false, false}>(model, first, end, work);
-}
-TENDRIL_LANES bool bend_with_energy(const Model& model, const State&, std::size_t first, std::size_t end,
-                                    Workspace& work) {
-  return bend_nodes<Wanted{false, true, true, false}>(model, first, end, work);
-}
-constexpr Loops kPlainly{bend_near, bend_far}, kThrice{bend_thrice_near, bend_thrice_far},
-    kViscously{bend_viscously_near, bend_viscously_far};
-
-/// Twist springs of the edges of a segment, into twist_tangent and twist_torque.
+/// The twist spring of edge i, at tau from its rest: the angle about t_a from m_a to m_b, carried there by
+/// the smallest rotation of the tangents. d tau = s_b - s_a + q.(dt_a + dt_b), q = (t_a x t_b) / (1 +
+/// t_a.t_b): what that rotation turns by itself.
 template <Wanted W>
-TENDRIL_INLINE bool twist_edges(const Model& model, const State& from, std::size_t first, std::size_t end,
-                                Workspace& work) {
-  const Reader m(work.frame.y), t(work.frame.z), t_rate(work.t_rate);
-  const Writer tangent(work.twist_tangent);
-  double* __restrict torques = work.twist_torque.data();
-  double* __restrict energy = work.energy.data();
-  double* __restrict heat = work.heat.data();
-  const double* __restrict spin = work.spin.data();
-  const double* __restrict reference = from.twist.data();
-  const double *__restrict stiffness = model.twist.data(), *__restrict rest = model.rest_twist.data(),
-               *__restrict viscosity = model.viscosity.data();
+TENDRIL_INLINE bool twist(const Columns& c, std::size_t i, const Axes& f, double& energy, double& heat) {
+  const V3 tb = c.t.at(i + 1);
+  const V3 mb = c.m.at(i + 1);
+  const double spread = 1.0 + lanes::dot(f.t, tb);
+  const double s = 1.0 / spread;
+  const double back = lanes::dot(f.t, mb) * s;
+  const double sine = back * lanes::dot(f.l, tb) - lanes::dot(f.l, mb);
+  const double along = lanes::dot(f.m, mb);
+  const double raw =
+      W.near ? sine * lanes::asin_ratio(sine * sine) : lanes::angle(sine, along - back * lanes::dot(f.m, tb));
+  const double tau = c.reference[i] + lanes::less_turns(raw - c.reference[i]);
+  const double strain = tau - c.rest_twist[i];
+  double torque = c.k_twist[i] * strain;
+  if constexpr (W.energy) energy += 0.5 * torque * strain;
+  if constexpr (W.viscous) {
+    // q.(t_a' + t_b'), with t' = (t x t') x t.
+    const double rotating = s * (lanes::dot(f.t, c.turning.at(i + 1)) - lanes::dot(tb, c.turning.at(i)));
+    const double rate = c.spin[i + 1] - c.spin[i] + rotating;
+    const double resistance = c.viscosity[i] * c.k_twist[i] * rate;
+    heat += resistance * rate;
+    torque += resistance;
+  }
+  c.twist_torque[i] = torque;
+  c.twist_tangent.put(i, (torque * s) * lanes::cross(f.t, tb));
+  // Between tangents less than 41 degrees apart the directors tell an angle near 0 from one near a half turn.
+  const bool near = (sine * sine <= lanes::kNearSquare) & (spread >= 1.75) & (along > 0.0);
+  return near | (c.k_twist[i] == 0.0);
+}
+
+/// Stretch of edge i.
+template <Wanted W>
+TENDRIL_INLINE void stretch(const Columns& c, std::size_t i, double& energy) {
+  const double strain = c.length[i] - c.rest_length[i];
+  c.g_length[i] = c.k_stretch[i] * strain;
+  if constexpr (W.energy) energy += 0.5 * c.g_length[i] * strain;
+}
+
+/// Bending of nodes [first, end), stretch and twist of the edges that begin there.
+template <Wanted W>
+TENDRIL_INLINE bool strain(const Model& model, const State& from, std::size_t first, std::size_t end,
+                           Workspace& work) {
+  const Columns c(model, from, work);
   std::int64_t far = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
-    const V3 ta = t.at(i);
-    const V3 tb = t.at(i + 1);
-    const V3 ma = m.at(i);
-    const V3 mb = m.at(i + 1);
-    const double s = 1.0 / (1.0 + lanes::dot(ta, tb));
-    const V3 carried = ma - (lanes::dot(tb, ma) * s) * (ta + tb);
-    const double sine = lanes::dot(lanes::cross(carried, mb), tb);
-    const double cosine = lanes::dot(carried, mb);
-    const double raw = W.near ? sine * lanes::asin_ratio(sine * sine) : lanes::angle(sine, cosine);
-    const double tau = reference[i] + lanes::less_turns(raw - reference[i]);
-    const double strain = tau - rest[i];
-    double torque = stiffness[i] * strain;
-    if constexpr (W.energy) energy[i] = 0.5 * torque * strain;
-    // d tau = s_b - s_a + c.(dt_a + dt_b): what the smallest rotation between the tangents turns by itself.
-    const V3 c = s * lanes::cross(ta, tb);
-    if constexpr (W.viscous) {
-      const double rate = spin[i + 1] - spin[i] + lanes::dot(c, t_rate.at(i) + t_rate.at(i + 1));
-      const double resistance = viscosity[i] * stiffness[i] * rate;
-      heat[i] = resistance * rate;
-      torque += resistance;
-    }
-    torques[i] = torque;
-    tangent.put(i, torque * c);
-    far |= (sine * sine <= lanes::kNearSquare && cosine > 0.0) || stiffness[i] == 0.0 ? 0 : 1;
+    const V3 m = c.m.at(i);
+    const V3 t = c.t.at(i);
+    const Axes f{lanes::cross(m, t), m, t};
+    double energy = 0.0;
+    double heat = 0.0;
+    stretch<W>(c, i, energy);
+    const bool bent_near = bend<W>(c, i, f, energy, heat);
+    const bool twisted_near = twist<W>(c, i, f, energy, heat);
+    far |= (bent_near & twisted_near) ? 0 : 1;
+    if constexpr (W.energy) c.energy[i] = energy;
+    if constexpr (W.viscous) c.heat[i] = heat;
   }
   return !W.near || far == 0;
 }
 
-TENDRIL_LANES bool twist_near(const Model& model, const State& reference, std::size_t first, std::size_t end,
+TENDRIL_LANES bool plain_near(const Model& model, const State& from, std::size_t first, std::size_t end,
                               Workspace& work) {
-  return twist_edges<Wanted{false, false, false, true}>(model, reference, first, end, work);
+  return strain<Wanted{.near = true}>(model, from, first, end, work);
 }
-TENDRIL_LANES bool twist_far(const Model& model, const State& reference, std::size_t first, std::size_t end,
+TENDRIL_LANES bool plain_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                  Workspace& work) {
+  return strain<Wanted{.straight = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool plain_far(const Model& model, const State& from, std::size_t first, std::size_t end,
                              Workspace& work) {
-  return twist_edges<Wanted{false, false, false, false}>(model, reference, first, end, work);
+  return strain<Wanted{}>(model, from, first, end, work);
 }
-TENDRIL_LANES bool twist_viscously_near(const Model& model, const State& reference, std::size_t first,
-                                        std::size_t end, Workspace& work) {
-  return twist_edges<Wanted{true, false, false, true}>(model, reference, first, end, work);
+TENDRIL_LANES bool thrice_near(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.third = true, .near = true}>(model, from, first, end, work);
 }
-TENDRIL_LANES bool twist_viscously_far(const Model& model, const State& reference, std::size_t first,
-                                       std::size_t end, Workspace& work) {
-  return twist_edges<Wanted{true, false, false, false}>(model, reference, first, end, work);
+TENDRIL_LANES bool thrice_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                   Workspace& work) {
+  return strain<Wanted{.third = true, .straight = true, .near = true}>(model, from, first, end, work);
 }
-TENDRIL_LANES bool twist_with_energy(const Model& model, const State& reference, std::size_t first,
-                                     std::size_t end, Workspace& work) {
-  return twist_edges<Wanted{false, false, true, false}>(model, reference, first, end, work);
+TENDRIL_LANES bool thrice_far(const Model& model, const State& from, std::size_t first, std::size_t end,
+                              Workspace& work) {
+  return strain<Wanted{.third = true}>(model, from, first, end, work);
 }
-constexpr Loops kTwist{twist_near, twist_far}, kTwistViscously{twist_viscously_near, twist_viscously_far};
+TENDRIL_LANES bool viscous_near(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                Workspace& work) {
+  return strain<Wanted{.viscous = true, .third = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool viscous_far(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.viscous = true, .third = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool with_energy(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.third = true, .energy = true}>(model, from, first, end, work);
+}
 
-/// Adds what the twist springs give the nodes.
-TENDRIL_LANES void gather_twist(const Segment& segment, Workspace& work) {
-  const Reader from(work.twist_tangent);
+Loops loops_of(const Segment& segment, bool viscous) {
+  if (viscous) return {viscous_near, viscous_far};
+  if (segment.third) return {segment.straight ? thrice_straight : thrice_near, thrice_far};
+  return {segment.straight ? plain_straight : plain_near, plain_far};
+}
+
+/// What the twist springs give the nodes, and the gyroscopic force of their spin: -I w t x t' by the tangent.
+template <bool Gyroscopic>
+TENDRIL_INLINE void gather(const Model& model, const Segment& segment, Workspace& work) {
+  const Reader from(work.twist_tangent), turning(work.turning);
   const Writer to(work.g_tangent);
-  const double* __restrict torque = work.twist_torque.data();
-  double* __restrict spin = work.g_spin.data();
+  const double *__restrict torque = work.twist_torque.data(), *__restrict spin = work.spin.data(),
+               *__restrict inertia = model.free_inertia.data();
+  double* __restrict to_spin = work.g_spin.data();
   TENDRIL_LOOP
   for (std::size_t i = segment.first; i < segment.end; ++i) {
-    to.x[i] += from.x[i - 1] + from.x[i];
-    to.y[i] += from.y[i - 1] + from.y[i];
-    to.z[i] += from.z[i - 1] + from.z[i];
-    spin[i] += torque[i - 1] - torque[i];
+    V3 g = from.at(i - 1) + from.at(i);
+    if constexpr (Gyroscopic) g = g - (inertia[i] * spin[i]) * turning.at(i);
+    to.put(i, g);
+    to_spin[i] += torque[i - 1] - torque[i];
   }
+}
+TENDRIL_LANES void gather_springs(const Model& model, const Segment& segment, Workspace& work) {
+  gather<false>(model, segment, work);
+}
+TENDRIL_LANES void gather_all(const Model& model, const Segment& segment, Workspace& work) {
+  gather<true>(model, segment, work);
 }
 
 double sum_of(const Column& column, const Segment& segment) {
@@ -243,7 +273,7 @@ double sum_of(const Column& column, const Segment& segment) {
   return sum;
 }
 
-/// What the last loops left where no edge is must not reach the next rod's first node.
+/// What the loops left where no edge is must not reach the next rod's first node.
 void clear_ends(const Model& model, Workspace& work) {
   for (const NodeRange& rod : model.rods) {
     const std::size_t last = rod.first + rod.count - 1;
@@ -254,17 +284,9 @@ void clear_ends(const Model& model, Workspace& work) {
   }
 }
 
-TENDRIL_LANES void stretch_edges(const Model& model, Workspace& work) {
-  const double *__restrict length = work.length.data(), *__restrict rest = model.rest_length.data(),
-               *__restrict stiffness = model.stretch.data();
-  double* __restrict g = work.g_length.data();
-  TENDRIL_LOOP
-  for (std::size_t i = 0; i < model.nodes; ++i) g[i] = stiffness[i] * (length[i] - rest[i]);
-}
-
-double resist_stretch(const Model& model, Workspace& work) {
+double resist_stretch(const Model& model, const Segment& segment, Workspace& work) {
   double heat = 0.0;
-  for (std::size_t i = 0; i < model.nodes; ++i) {
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
     const double resistance = model.viscosity[i] * model.stretch[i] * work.length_rate[i];
     heat += resistance * work.length_rate[i];
     work.g_length[i] += resistance;
@@ -274,51 +296,50 @@ double resist_stretch(const Model& model, Workspace& work) {
 
 }  // namespace
 
-Evaluation elastic(const Model& model, const State& reference, bool viscous, Workspace& work, double& heat) {
+Evaluation elastic(const Model& model, const State& reference, Inner inner, Workspace& work, double& heat) {
   heat = 0.0;
-  stretch_edges(model, work);
-  if (viscous) heat += resist_stretch(model, work);
   for (const Segment& s : model.segments) {
-    if (!s.twist) {
-      if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok()) return at;
-      continue;
-    }
-    const bool resists = viscous && s.viscous;
-    run(resists ? kViscously : s.third ? kThrice : kPlainly, model, reference, s, work);
-    if (resists) heat += sum_of(work.heat, s);
-    run(resists ? kTwistViscously : kTwist, model, reference, s, work);
-    clear_ends(model, work);
-    if (resists) heat += sum_of(work.heat, s);
-    gather_twist(s, work);
+    if (s.twist)
+      run(loops_of(s, inner.viscous && s.viscous), model, reference, s, work);
+    else if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok())
+      return at;
   }
+  clear_ends(model, work);
+  for (const Segment& s : model.segments) {
+    if (inner.viscous && s.viscous) heat += resist_stretch(model, s, work) + sum_of(work.heat, s);
+    if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
+  }
+  for (const std::size_t node : model.bending.held)
+    pull_on_held(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
   for (const std::size_t node : model.bending.held_hinges) bend_held(model, node, work);
   return {};
 }
 
 Evaluation elastic_energy(const Model& model, const State& reference, Workspace& work, double& energy) {
-  stretch_edges(model, work);
-  energy = 0.0;
-  for (std::size_t i = 0; i < model.nodes; ++i)
-    energy += 0.5 * work.g_length[i] * (work.length[i] - model.rest_length[i]);
   for (const Segment& s : model.segments) {
-    if (s.twist) {
-      bend_with_energy(model, reference, s.first, s.end, work);
-      energy += sum_of(work.energy, s);
-      twist_with_energy(model, reference, s.first, s.end, work);
-      clear_ends(model, work);
-      gather_twist(s, work);
-    } else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok()) {
+    if (s.twist)
+      with_energy(model, reference, s.first, s.end, work);
+    else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok())
       return at;
-    }
-    energy += sum_of(work.energy, s);
   }
+  clear_ends(model, work);
+  energy = 0.0;
+  for (const Segment& s : model.segments) {
+    energy += sum_of(work.energy, s);
+    if (s.twist) gather_springs(model, s, work);
+  }
+  double none = 0.0;
+  for (const std::size_t node : model.bending.held) energy += pull_on_held(model, node, false, work, none);
   for (const std::size_t node : model.bending.held_hinges) energy += bend_held(model, node, work);
   return {};
 }
 
-void relax(Workspace& work) {
-  for (auto* vectors : {&work.g_before, &work.g_after, &work.g_tangent}) vectors->set_zero();
-  for (auto* numbers : {&work.g_length, &work.g_spin}) numbers->set_zero();
+void relax(const Model& model, bool gyroscopic, Workspace& work) {
+  for (auto* vectors : {&work.g_bend, &work.g_before, &work.g_after, &work.g_tangent, &work.twist_tangent})
+    vectors->set_zero();
+  for (auto* numbers : {&work.g_length, &work.g_spin, &work.twist_torque}) numbers->set_zero();
+  for (const Segment& s : model.segments)
+    if (s.twist && gyroscopic) gather_all(model, s, work);
 }
 
 }  // namespace tendril

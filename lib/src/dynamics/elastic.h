@@ -17,10 +17,15 @@ enum class Motion { places, springs, all };
 Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, System::Workspace& work);
 
-/// Gradient of the elastic energy at the kinematics. With `viscous` (needs rates) every spring but the third
-/// acts on strain + beta strain'. Fails where two edges fold back on each other.
+/// What acts beside the elastic springs: with `viscous` every spring but the third on strain + beta strain';
+/// the gyroscopic force of the spins, through the tangents. Both need rates.
+struct Inner {
+  bool viscous, gyroscopic;
+};
+
+/// Gradient of the elastic energy at the kinematics. Fails where two edges fold back on each other.
 /// \param heat  power turned into heat, when viscous
-Evaluation elastic(const System::Model& model, const State& reference, bool viscous, System::Workspace& work,
+Evaluation elastic(const System::Model& model, const State& reference, Inner inner, System::Workspace& work,
                    double& heat);
 
 /// The elastic energy with its gradient.
@@ -28,9 +33,12 @@ Evaluation elastic_energy(const System::Model& model, const State& reference, Sy
                           double& energy);
 
 /// The gradient of no springs at all.
-void relax(System::Workspace& work);
+void relax(const System::Model& model, bool gyroscopic, System::Workspace& work);
 
-/// Turns the gradient by tangents and edges into forces on the masses, in work.force. The tangents of held
+/// Turns the gradient by tangents and edges into forces along the edges.
+void pull_on_edges(const System::Model& model, System::Workspace& work);
+
+/// The same, and these into forces on the masses, in work.force. The tangents of held
 /// frames do not depend on the masses; what the root of a child rod feels goes to the node it rides on.
 void pull_back(const System::Model& model, System::Workspace& work);
 

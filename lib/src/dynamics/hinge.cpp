@@ -14,39 +14,43 @@ using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
 
-/// Without a twist state bending is isotropic and straight at rest, and a tangent halves the angle phi
-/// between its edges: both its springs together are 1/4 K phi^2, on the edges alone. False when two edges
-/// fold back (or are not near and were taken for it).
+/// Without a twist state bending is isotropic and straight at rest: both springs together are K phi^2, phi
+/// the angle that either edge makes with the tangent between them, half of that between the unit edges a and
+/// b. With d = (b - a) / 2, of length sin(phi), the gradient by d is 2 K phi / (sin(phi) cos(phi)) d. False
+/// when two edges fold back (or are not near and were taken for it). Beside it the stretch of the edges.
 template <bool Energy, bool Near>
 TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, Workspace& work) {
   const Reader e(work.e);
-  const Writer before(work.g_before), after(work.g_after);
-  double* __restrict energy = work.energy.data();
+  const Writer to(work.g_bend);
+  double* __restrict energy = work.energy.data(), * __restrict g_length = work.g_length.data();
+  const double *__restrict length = work.length.data(), *__restrict rest = model.rest_length.data(),
+               *__restrict k_stretch = model.stretch.data();
   const double* __restrict stiffness = model.bending.hinge.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
     const V3 a = e.at(i - 1);
     const V3 b = e.at(i);
-    const V3 c = lanes::cross(a, b);
-    const double sine2 = lanes::dot(c, c);
-    const double cosine = lanes::dot(a, b);
-    double ratio;
+    const V3 d = 0.5 * (b - a);
+    const double sine2 = lanes::dot(d, d);
+    double slope;
     bool good;
     if constexpr (Near) {
-      ratio = lanes::wide_asin_ratio(sine2);
-      good = sine2 <= lanes::kWideSquare && cosine > 0.0;
+      slope = lanes::asin_slope(sine2);
+      good = sine2 <= lanes::kNearSquare;
     } else {
       const V3 sum = a + b;
       const double sine = std::sqrt(sine2);
+      const double cosine = 0.5 * std::sqrt(lanes::dot(sum, sum));
       const double phi = lanes::angle(sine, cosine);
-      ratio = sine > 1e-12 ? phi / (sine > 1e-12 ? sine : 1.0) : 1.0;
-      good = lanes::dot(sum, sum) >= kFoldBack * kFoldBack;
-      if constexpr (Energy) energy[i] = 0.25 * stiffness[i] * phi * phi;
+      good = cosine >= 0.5 * kFoldBack;
+      slope = good && sine > 1e-12 ? phi / (sine * cosine) : 1.0;
+      if constexpr (Energy) energy[i] = stiffness[i] * phi * phi;
     }
-    const double g = -0.5 * stiffness[i] * ratio;
-    before.put(i, g * b);
-    after.put(i, g * a);
+    to.put(i, (stiffness[i] * slope) * d);
+    const double strain = length[i] - rest[i];
+    g_length[i] = k_stretch[i] * strain;
+    if constexpr (Energy) energy[i] += 0.5 * g_length[i] * strain;
     bad |= good || stiffness[i] == 0.0 ? 0 : 1;
   }
   return bad == 0;
@@ -70,25 +74,6 @@ bool never(const Model&, const State&, std::size_t, std::size_t, Workspace&) {
 }
 
 }  // namespace
-
-double bend_held(const Model& model, std::size_t node, Workspace& work) {
-  const Vec3 t = work.frame.z[node];
-  const double stiffness = model.bend_l[node] + model.bend_t[node];
-  Vec3 g_tangent = Vec3::Zero();
-  double energy = 0.0;
-  const auto spring = [&](const Vec3& e) {
-    const double sine = e.cross(t).norm();
-    const double angle = std::atan2(sine, e.dot(t));
-    const double g = sine > 1e-12 ? stiffness * angle / sine : stiffness;
-    g_tangent -= g * e;
-    energy += 0.5 * stiffness * angle * angle;
-    return Vec3(-g * t);
-  };
-  if (model.has_before(node)) work.g_before.set(node, spring(work.e[node - 1]));
-  if (model.has_after(node)) work.g_after.set(node, spring(work.e[node]));
-  work.g_tangent.set(node, g_tangent);
-  return energy;
-}
 
 Evaluation hinge(const Model& model, const State& reference, const Segment& segment, bool energy,
                  Workspace& work) {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "column_access.h"
 #include "elastic.h"
@@ -11,7 +12,9 @@ namespace {
 using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
 using Model = System::Model;
+using lanes::Reader;
 using lanes::V3;
+using lanes::Writer;
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 
@@ -28,83 +31,38 @@ TENDRIL_LANES void take_apart(const double* from, std::size_t count, Columns3& t
   }
 }
 
-/// Lengths and directions of edges [first, end); true when one has no direction.
-TENDRIL_LANES bool measure(std::size_t first, std::size_t end, Workspace& work) {
-  const double* __restrict px = work.p.x.data(), * __restrict py = work.p.y.data(), * __restrict pz = work.p.z.data();
-  double* __restrict ex = work.e.x.data(), * __restrict ey = work.e.y.data(), * __restrict ez = work.e.z.data();
-  double* __restrict length = work.length.data(), * __restrict inverse = work.inverse_length.data();
+/// Lengths and directions of edges [first, end), and their rates; true when one has no direction.
+template <bool Rates>
+TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Workspace& work) {
+  const Reader p(work.p), v(work.v);
+  const Writer to(work.e), rate(work.e_rate);
+  double *__restrict length = work.length.data(), *__restrict inverse = work.inverse_length.data(),
+         *__restrict length_rate = work.length_rate.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
-    const V3 d{px[i + 1] - px[i], py[i + 1] - py[i], pz[i + 1] - pz[i]};
+    const V3 d = p.at(i + 1) - p.at(i);
     const double l = std::sqrt(lanes::dot(d, d));
     const double s = 1.0 / l;
+    const V3 e = s * d;
     length[i] = l;
     inverse[i] = s;
-    ex[i] = s * d.x;
-    ey[i] = s * d.y;
-    ez[i] = s * d.z;
+    to.put(i, e);
     bad |= l > 0.0 && l < 1e300 ? 0 : 1;
+    if constexpr (Rates) {
+      const V3 apart = v.at(i + 1) - v.at(i);
+      const double along = lanes::dot(e, apart);
+      length_rate[i] = along;
+      rate.put(i, s * (apart - along * e));
+    }
   }
   return bad != 0;
 }
-
-TENDRIL_LANES void measure_rates(std::size_t first, std::size_t end, Workspace& work) {
-  const double* __restrict vx = work.v.x.data(), * __restrict vy = work.v.y.data(), * __restrict vz = work.v.z.data();
-  const double* __restrict ex = work.e.x.data(), * __restrict ey = work.e.y.data(), * __restrict ez = work.e.z.data();
-  const double* __restrict inverse = work.inverse_length.data();
-  double* __restrict length_rate = work.length_rate.data();
-  double *__restrict rx = work.e_rate.x.data(), *__restrict ry = work.e_rate.y.data(),
-         *__restrict rz = work.e_rate.z.data();
-  TENDRIL_LOOP
-  for (std::size_t i = first; i < end; ++i) {
-    const V3 d{vx[i + 1] - vx[i], vy[i + 1] - vy[i], vz[i + 1] - vz[i]};
-    const V3 e{ex[i], ey[i], ez[i]};
-    const double along = lanes::dot(e, d);
-    length_rate[i] = along;
-    rx[i] = inverse[i] * (d.x - along * e.x);
-    ry[i] = inverse[i] * (d.y - along * e.y);
-    rz[i] = inverse[i] * (d.z - along * e.z);
-  }
+TENDRIL_LANES bool measure_places(std::size_t first, std::size_t end, Workspace& work) {
+  return measure<false>(first, end, work);
 }
-
-/// Tangents of nodes [first, end) from their edges (2.7, normalised); true when the edges of one fold back.
-TENDRIL_LANES bool bisect(std::size_t first, std::size_t end, Workspace& work) {
-  const double* __restrict ex = work.e.x.data(), * __restrict ey = work.e.y.data(), * __restrict ez = work.e.z.data();
-  double *__restrict tx = work.frame.z.x.data(), *__restrict ty = work.frame.z.y.data(),
-         *__restrict tz = work.frame.z.z.data();
-  double* __restrict inverse = work.inverse_bisector.data();
-  std::int64_t bad = 0;
-  TENDRIL_LOOP
-  for (std::size_t i = first; i < end; ++i) {
-    const V3 s{ex[i - 1] + ex[i], ey[i - 1] + ey[i], ez[i - 1] + ez[i]};
-    const double length = std::sqrt(lanes::dot(s, s));
-    const double b = 1.0 / length;
-    inverse[i] = b;
-    tx[i] = b * s.x;
-    ty[i] = b * s.y;
-    tz[i] = b * s.z;
-    bad |= length >= kFoldBack ? 0 : 1;
-  }
-  return bad != 0;
-}
-
-TENDRIL_LANES void bisect_rates(std::size_t first, std::size_t end, Workspace& work) {
-  const double *__restrict ex = work.e_rate.x.data(), *__restrict ey = work.e_rate.y.data(),
-               *__restrict ez = work.e_rate.z.data();
-  const double *__restrict tx = work.frame.z.x.data(), *__restrict ty = work.frame.z.y.data(),
-               *__restrict tz = work.frame.z.z.data();
-  const double* __restrict inverse = work.inverse_bisector.data();
-  double *__restrict rx = work.t_rate.x.data(), *__restrict ry = work.t_rate.y.data(),
-         *__restrict rz = work.t_rate.z.data();
-  TENDRIL_LOOP
-  for (std::size_t i = first; i < end; ++i) {
-    const V3 s{ex[i - 1] + ex[i], ey[i - 1] + ey[i], ez[i - 1] + ez[i]};
-    const double along = tx[i] * s.x + ty[i] * s.y + tz[i] * s.z;
-    rx[i] = inverse[i] * (s.x - along * tx[i]);
-    ry[i] = inverse[i] * (s.y - along * ty[i]);
-    rz[i] = inverse[i] * (s.z - along * tz[i]);
-  }
+TENDRIL_LANES bool measure_all(std::size_t first, std::size_t end, Workspace& work) {
+  return measure<true>(first, end, work);
 }
 
 /// Where the reference directors are, what turns them, and where the nodes [first, end) stand in it.
@@ -114,27 +72,43 @@ struct Carried {
   const double* __restrict theta;     ///< of the nodes from `first` on
 };
 
-/// Directors of nodes with twist: the reference carried to the tangent by the smallest rotation, turned by
-/// theta; with rates, also what the carried director turns by itself, ((t_s x t) . t') / (1 + t_s . t). True
-/// when a tangent turned too far for that.
-template <bool Rates>
+/// Tangents of nodes [first, end) from their edges (2.7, normalised), with rates; true when the edges of one
+/// fold back. Directors of nodes with twist: the reference carried to the tangent by the smallest rotation,
+/// turned by theta; with rates, also what the carried director turns by itself,
+/// ((t_s x t) . t') / (1 + t_s . t) = t_s . (t x t') / (1 + t_s . t). True, too, when a tangent turned too
+/// far for that.
+template <bool Rates, bool Twist, bool Near>
 TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  const lanes::Reader tangent(work.frame.z), rate(work.t_rate);
-  const lanes::Writer to(work.frame.y);
-  double* __restrict connection = work.connection.data();
+  const Reader e(work.e), e_rate(work.e_rate);
+  const Writer to_t(work.frame.z), to_turning(work.turning), to_m(work.frame.y);
+  double* __restrict inverse = work.inverse_bisector.data(), * __restrict connection = work.connection.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
+    const V3 sum = e.at(i - 1) + e.at(i);
+    const double length = std::sqrt(lanes::dot(sum, sum));
+    const double b = 1.0 / length;
+    const V3 t = b * sum;
+    V3 turning{};
+    const bool folded = !(length >= kFoldBack);
+    inverse[i] = folded ? 0.0 : b;
+    to_t.put(i, t);
+    if constexpr (Rates) {
+      turning = lanes::cross(t, b * (e_rate.at(i - 1) + e_rate.at(i)));
+      to_turning.put(i, turning);
+    }
+    bad |= folded ? 1 : 0;
+    if constexpr (!Twist) continue;
     const V3 f{from.tangent[3 * i], from.tangent[3 * i + 1], from.tangent[3 * i + 2]};
     const V3 d{from.director[3 * i], from.director[3 * i + 1], from.director[3 * i + 2]};
-    const V3 t = tangent.at(i);
     const double c = 1.0 + lanes::dot(f, t);
     const double s = 1.0 / c;
     const V3 carried = d - (lanes::dot(t, d) * s) * (f + t);
     const V3 beside = lanes::cross(t, carried);
-    const lanes::SineCosine turn = lanes::sine_cosine(from.theta[i - first]);
-    to.put(i, turn.cosine * carried + turn.sine * beside);
-    if constexpr (Rates) connection[i] = s * lanes::dot(lanes::cross(f, t), rate.at(i));
+    const double theta = from.theta[i - first];
+    const lanes::SineCosine turn = Near ? lanes::near_sine_cosine(theta) : lanes::sine_cosine(theta);
+    to_m.put(i, turn.cosine * carried + turn.sine * beside);
+    if constexpr (Rates) connection[i] = s * lanes::dot(f, turning);
     // Within a step no tangent turns further than 126 degrees: a longer way could take the wrong side.
     bad |= c > kTurnedTooFar ? 0 : 1;
   }
@@ -142,10 +116,30 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
 }
 
 TENDRIL_LANES bool direct_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<false>(first, end, from, work);
+  return direct<false, true, false>(first, end, from, work);
 }
-TENDRIL_LANES bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true>(first, end, from, work);
+TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, false>(first, end, from, work);
+}
+TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, true>(first, end, from, work);
+}
+TENDRIL_LANES bool bisect_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<false, false, false>(first, end, from, work);
+}
+TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, false, false>(first, end, from, work);
+}
+
+/// Whether all are at most kNearTurn.
+TENDRIL_LANES bool turned_little(const double* theta, std::size_t count) {
+  std::int64_t far = 0;
+  for (std::size_t i = 0; i < count; ++i) far |= std::fabs(theta[i]) <= lanes::kNearTurn ? 0 : 1;
+  return far == 0;
+}
+
+bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, work);
 }
 
 TENDRIL_LANES bool finite(const double* values, std::size_t count) {
@@ -183,9 +177,9 @@ void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
   work.inverse_bisector[i] = 0.0;
   work.connection[i] = 0.0;
   if (!rates) return;
-  const Vec3 turning = f.z.cross(work.t_rate[ride.parent]) + work.spin[ride.parent] * f.z;
-  work.t_rate.set(i, turning.cross(frame.z));
+  const Vec3 turning = Vec3(work.turning[ride.parent]) + work.spin[ride.parent] * f.z;
   work.spin[i] = turning.dot(frame.z);
+  work.turning.set(i, turning - work.spin[i] * frame.z);
 }
 
 void take_held_frames(const Model& model, Workspace& work) {
@@ -195,8 +189,8 @@ void take_held_frames(const Model& model, Workspace& work) {
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     const AnchorPose& pose = work.pose[a];
     work.frame.set(i, pose.frame);
-    work.t_rate.set(i, pose.angular_velocity.cross(pose.frame.z));
     work.spin[i] = pose.angular_velocity.dot(pose.frame.z);
+    work.turning.set(i, pose.angular_velocity - work.spin[i] * pose.frame.z);
     work.inverse_bisector[i] = 0.0;
     work.connection[i] = 0.0;
   }
@@ -224,7 +218,7 @@ Evaluation find_bad_tangent(const Model& model, const State& reference, const Sy
                             const Workspace& work) {
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     if (model.holds_frame(i)) continue;
-    if (!(1.0 / work.inverse_bisector[i] >= kFoldBack)) return {Outcome::fold_back, i};
+    if (work.inverse_bisector[i] == 0.0) return {Outcome::fold_back, i};
     if (segment.twist && !(1.0 + reference.tangent[i].dot(work.frame.z[i]) > kTurnedTooFar))
       return {Outcome::turned_too_far, i};
   }
@@ -239,16 +233,16 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
                        Workspace& work) {
   for (const System::Model::Segment& s : model.segments) {
     if (!s.twist && what == Motion::springs) continue;
-    bool bad = bisect(s.first, s.end, work);
-    if (what != Motion::places) bisect_rates(s.first, s.end, work);
+    const bool places = what == Motion::places;
+    Carried from{};
     if (s.twist) {
       const Eigen::Index k = model.twist_index[s.first];
-      const Carried from{numbers(reference.tangent), numbers(reference.director),
-                         y.data() + model.theta_begin() + k};
-      bad |= (what == Motion::places ? direct_places : direct_all)(s.first, s.end, from, work);
+      from = {numbers(reference.tangent), numbers(reference.director), y.data() + model.theta_begin() + k};
       const double* spin = y.data() + model.spin_begin() + k;
       std::copy(spin, spin + (s.end - s.first), &work.spin[s.first]);
     }
+    const auto fill = s.twist ? (places ? direct_places : direct_all) : (places ? bisect_places : bisect_all);
+    const bool bad = fill(s.first, s.end, from, work);
     if (!bad) continue;
     if (const Evaluation at = find_bad_tangent(model, reference, s, work); !at.ok()) return at;
   }
@@ -263,14 +257,15 @@ bool all_finite(const Eigen::VectorXd& values) {
   return finite(values.data(), static_cast<std::size_t>(values.size()));
 }
 
-System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()), frame(model.nodes) {
+System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()) {
   const std::size_t n = model.nodes;
-  for (auto* vectors : {&p, &v, &e, &e_rate, &t_rate, &g_before, &g_after, &g_bisector, &g_tangent,
-                        &twist_tangent, &edge_force, &force})
-    *vectors = Columns3(n);
+  std::size_t rank = 0;
+  for (auto* vectors : {&p, &v, &frame.y, &frame.z, &e, &e_rate, &turning, &g_bend, &g_before, &g_after,
+                        &g_tangent, &twist_tangent, &edge_force, &force})
+    *vectors = Columns3(n, std::exchange(rank, rank + 3));
   for (auto* numbers : {&length, &inverse_length, &length_rate, &inverse_bisector, &spin, &connection,
                         &g_spin, &g_length, &twist_torque, &energy, &heat})
-    *numbers = Column(n);
+    *numbers = Column(n, rank++);
   if (!model.loaded) return;
   for (auto* vectors : {&seen_p, &seen_v, &seen_t, &seen_m, &load, &torque}) vectors->assign(n, Vec3::Zero());
   seen_spin.assign(n, 0.0);
@@ -280,8 +275,7 @@ Evaluation kinematics(const Model& model, const State& reference, double t, cons
                       Motion what, Workspace& work) {
   if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
   place_nodes(model, t, y, work);
-  const bool bad = measure(0, model.nodes, work);
-  if (what != Motion::places) measure_rates(0, model.nodes, work);
+  const bool bad = (what == Motion::places ? measure_places : measure_all)(0, model.nodes, work);
   clear_ends(model, work);
   if (bad)
     if (const Evaluation at = find_bad_edge(model, work); !at.ok()) return at;

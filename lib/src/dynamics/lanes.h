@@ -2,23 +2,12 @@
 
 #include <cmath>
 
-/// Loops of this module that a compiler turns into vector code: marked with TENDRIL_LANES they are compiled
-/// for several vector units, and the widest one that the machine has is taken when the program starts. Every
-/// operation is elementwise and none is contracted, so the bits do not depend on which.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TENDRIL_LANES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
-#else
-#define TENDRIL_LANES
-#endif
-#define TENDRIL_INLINE inline __attribute__((always_inline))
+#include "base/vector_loops.h"
 
-#if defined(__clang__)
-#define TENDRIL_LOOP _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define TENDRIL_LOOP _Pragma("GCC ivdep")
-#endif
-
+/// What the vector loops of this module compute with. Those with fused multiply-adds use them, so that the
+/// last bits can differ between machines, and between the same rod alone and among others (a loop's last few
+/// numbers are no vector, and fuse in another order). The same scene gives the same bits on one machine,
+/// wherever its numbers lie in memory.
 namespace tendril::lanes {
 
 /// Three numbers in registers. Eigen's vectors would keep loops from being vectorised.
@@ -111,18 +100,18 @@ TENDRIL_INLINE Deviation deviation(double x, double cosine) {
   return {std::copysign(a, x), q * r.down};
 }
 
-/// Up to which square of a sine the series below hold: angles to 14.4 degrees.
-constexpr double kNearSquare = 0.0625;
+/// Up to which square of a sine the series below hold: angles to 10.2 degrees.
+constexpr double kNearSquare = 0.03125;
 
-/// asin(s) / s for w = s^2 up to kNearSquare: Chebyshev fit, error 6e-18.
+/// asin(s) / s for w = s^2 up to kNearSquare: Chebyshev fit, error 2e-18.
 TENDRIL_INLINE double asin_ratio(double w) {
-  const double p = horner(w, 1.66666666666666574e-01, 7.50000000001768835e-02, 4.46428570835504177e-02,
-                          3.03819520040953910e-02, 2.23716872160263473e-02, 1.73686867756920639e-02,
-                          1.36697981470607164e-02, 1.43377619215329082e-02);
+  const double p = horner(w, 1.66666666666666713e-01, 7.49999999998587352e-02, 4.46428572150876571e-02,
+                          3.03819306143614416e-02, 2.23734174402499056e-02, 1.72942214348841203e-02,
+                          1.53025466205305438e-02);
   return 1.0 + p * w;
 }
 
-/// The same up to kWideSquare, 30 degrees: error 3e-18.
+/// asin(s) / s up to kWideSquare, 30 degrees: error 3e-18.
 constexpr double kWideSquare = 0.25;
 TENDRIL_INLINE double wide_asin_ratio(double w) {
   const double p = horner(w, 1.66666666666666657e-01, 7.49999999999999140e-02, 4.46428571428834006e-02,
@@ -133,11 +122,19 @@ TENDRIL_INLINE double wide_asin_ratio(double w) {
   return 1.0 + p * w;
 }
 
-/// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-18.
+/// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-17.
 TENDRIL_INLINE double inverse_cosine(double w) {
-  const double p = horner(w, 5.00000000000000000e-01, 3.74999999999933276e-01, 3.12500000028413771e-01,
-                          2.73437495349241666e-01, 2.46094130481056855e-01, 2.25568508970002579e-01,
-                          2.09939085475754794e-01, 1.89181888429336337e-01, 2.43825199245947422e-01);
+  const double p = horner(w, 5.00000000000000777e-01, 3.74999999997571776e-01, 3.12500001241328595e-01,
+                          2.73437262397397518e-01, 2.46115356384987716e-01, 2.24581757055933529e-01,
+                          2.32368976156264700e-01);
+  return 1.0 + p * w;
+}
+
+/// asin(s) / (s sqrt(1 - w)), both at once: the slope of asin(s)^2 / 2 over s. Chebyshev fit, error 4e-17.
+TENDRIL_INLINE double asin_slope(double w) {
+  const double p = horner(w, 6.66666666666667851e-01, 5.33333333329628401e-01, 4.57142859036851090e-01,
+                          4.06348843823369055e-01, 3.69441335141163008e-01, 3.39460268031447132e-01,
+                          3.53190131570816801e-01);
   return 1.0 + p * w;
 }
 
@@ -164,6 +161,17 @@ TENDRIL_INLINE SineCosine sine_cosine(double x) {
   const double c1 = odd ? sine : cosine;
   const bool half = quarter == 2.0 || quarter == -2.0;
   return {half || quarter == -1.0 ? -s1 : s1, half || quarter == 1.0 ? -c1 : c1};
+}
+
+/// The same for |x| up to kNearTurn: Chebyshev fits, error 1e-18.
+constexpr double kNearTurn = 0.25;
+TENDRIL_INLINE SineCosine near_sine_cosine(double x) {
+  const double z = x * x;
+  const double s = horner(z, -1.66666666666666657e-01, 8.33333333333309383e-03, -1.98412698382089867e-04,
+                          2.75573055104068607e-06, -2.50270282610854804e-08);
+  const double c = horner(z, 4.16666666666664146e-02, -1.38888888876155330e-03, 2.48015771141572259e-05,
+                          -2.75312355960495884e-07);
+  return {x + x * (s * z), 1.0 - (0.5 * z - (z * z) * c)};
 }
 
 /// d less the nearest multiple of 2 pi.

@@ -56,7 +56,8 @@ void check_rod(const Rod& rod, std::size_t index) {
                          "a rest shape with a frame at every node");
 }
 
-constexpr double kStraight = 1e-9;  // rest angle below which a node counts as straight [rad]
+constexpr std::size_t kModelRank = 60;  // of the first column, behind those of a workspace
+constexpr double kStraight = 1e-9;      // rest angle below which a node counts as straight [rad]
 
 }  // namespace
 
@@ -132,10 +133,11 @@ void System::Model::flatten_rest_angles(const NodeRange& range) {
     rest_twist[i] = twist_angle(rest_frame[i], rest_frame[i + 1]);
     for (std::size_t side = 0; side < 2; ++side) {
       const EdgeAngles a = edge_angles(edge / rest_length[i], rest_frame[i + side]);
+      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
+      if (!(a.t > kStraight)) continue;
       rest_l[2 * i + side] = a.l;
       rest_m[2 * i + side] = a.m;
-      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
-      rest_t[2 * i + side] = a.t > kStraight ? a.t : 0.0;
+      rest_t[2 * i + side] = a.t;
     }
   }
 }
@@ -271,15 +273,18 @@ void System::Model::choose_twist() {
 }
 
 void System::Model::choose_forces() {
-  inverse_mass.assign(nodes, 0.0);
-  inverse_inertia.assign(nodes, 0.0);
-  damped_mass.assign(nodes, 0.0);
-  damped_inertia.assign(nodes, 0.0);
+  std::size_t rank = kModelRank;
+  for (auto* numbers : {&inverse_mass, &inverse_inertia, &free_inertia, &damped_mass, &damped_inertia})
+    *numbers = Column(nodes, rank++);
   std::vector<char> passes_on(nodes, 0);
   for (const Ride& ride : rides) passes_on[ride.root] = ride.reaction;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!holds_position(i)) inverse_mass[i] = 1.0 / moved_mass[i];
-    if (has_twist(i) && !holds_frame(i)) inverse_inertia[i] = 1.0 / inertia[i];
+    if (has_twist(i) && !holds_frame(i)) {
+      free_inertia[i] = inertia[i];
+      inverse_inertia[i] = 1.0 / inertia[i];
+    }
+    if (holds_position(i)) held_positions.push_back(i);
     if (holds_position(i) && !passes_on[i]) driven_positions.push_back(i);
     if (holds_frame(i) && !passes_on[i]) driven_frames.push_back(i);
     if (inverse_mass[i] > 0.0) damped_mass[i] = damping[i] * moved_mass[i];
@@ -309,43 +314,42 @@ void System::Model::lay_out_springs() {
     const bool third =
         std::any_of(bend_t.begin() + static_cast<std::ptrdiff_t>(rod.first),
                     bend_t.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0.0; });
-    const Segment own{rod.first, end, has_twist(rod.first), third, scene.rods[r].viscosity > 0.0};
+    const bool straight = std::all_of(rest_t.begin() + static_cast<std::ptrdiff_t>(2 * rod.first),
+                                      rest_t.begin() + static_cast<std::ptrdiff_t>(2 * end),
+                                      [](double rest) { return rest == 0.0; });
+    const Segment own{rod.first, end, has_twist(rod.first), third, straight, scene.rods[r].viscosity > 0.0};
     const bool alike =
         !segments.empty() && segments.back().twist == own.twist &&
-        (!own.twist || (segments.back().third == own.third && segments.back().viscous == own.viscous));
+        (!own.twist || (segments.back().third == own.third && segments.back().straight == own.straight &&
+                        segments.back().viscous == own.viscous));
     if (alike)
       segments.back().end = end;
     else
       segments.push_back(own);
   }
-  for (BendingSide& side : bending.side)
-    for (auto* numbers :
-         {&side.k_l, &side.k_m, &side.k_t, &side.rest_l, &side.rest_m, &side.rest_t, &side.viscosity})
-      numbers->assign(nodes, 0.0);
-  bending.hinge.assign(nodes, 0.0);
-  for (const NodeRange& rod : rods) lay_out_bending(rod);
+  std::size_t rank = kModelRank + 5;
+  for (auto* numbers : {&bending.k_l, &bending.k_m, &bending.k_t, &bending.rest_l, &bending.rest_m,
+                        &bending.rest_t, &bending.hinge})
+    *numbers = Column(nodes, rank++);
+  for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 
-void System::Model::lay_out_bending(const NodeRange& rod) {
-  for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (k == 0 ? !has_before(i) : !has_after(i)) continue;
-      const std::size_t edge = i + k - 1;
-      const std::size_t end = 2 * edge + 1 - k;
-      BendingSide& side = bending.side[k];
-      side.k_l[i] = bend_l[i];
-      side.k_m[i] = bend_m[i];
-      side.k_t[i] = bend_t[i];
-      side.rest_l[i] = rest_l[end];
-      side.rest_m[i] = rest_m[end];
-      side.rest_t[i] = rest_t[end];
-      side.viscosity[i] = viscosity[edge];
-    }
-    if (has_twist(i)) continue;
-    if (holds_frame(i))
-      bending.held_hinges.push_back(i);
-    else if (has_before(i) && has_after(i))
+void System::Model::lay_out_bending(std::size_t i) {
+  if (holds_frame(i)) {
+    (has_twist(i) ? bending.held : bending.held_hinges).push_back(i);
+  } else if (has_before(i) && has_after(i)) {
+    if (!has_twist(i)) {
       bending.hinge[i] = bend_l[i] + bend_t[i];
+      return;
+    }
+    const std::size_t before = 2 * i - 1;
+    const std::size_t after = 2 * i;
+    bending.k_l[i] = bend_l[i];
+    bending.k_m[i] = bend_m[i];
+    bending.k_t[i] = bend_t[i];
+    bending.rest_l[i] = 0.5 * (rest_l[after] - rest_l[before]);
+    bending.rest_m[i] = 0.5 * (rest_m[after] - rest_m[before]);
+    bending.rest_t[i] = 0.5 * (rest_t[after] + rest_t[before]);
   }
 }
 

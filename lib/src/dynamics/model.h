@@ -2,8 +2,9 @@
 
 #include <tendril/dynamics/system.h>
 
-#include <array>
 #include <vector>
+
+#include "columns.h"
 
 namespace tendril {
 
@@ -25,16 +26,19 @@ struct System::Model {
   // Per node.
   std::vector<Vec3> rest_p;
   std::vector<Frame> rest_frame;
-  std::vector<double> mass, inertia, bend_l, bend_m, bend_t, damping;
-  std::vector<double> moved_mass;                   ///< mass with that of the roots merged into the node
-  std::vector<Vec3> offset;                         ///< (0, r a, r b): q - p in the rest node frame
-  std::vector<int> twist_index;                     ///< place among the twist states, -1 where left out
-  std::vector<char> anchored;                       ///< named by an anchor of the scene
-  std::vector<char> held_position, held_frame;      ///< by an anchor, or by riding on a parent
-  std::vector<char> begins, ends;                   ///< a rod
-  std::vector<double> inverse_mass;                 ///< of what moves with the node; 0 where it is held
-  std::vector<double> inverse_inertia;              ///< 0 where the frame is held, and without twist
-  std::vector<double> damped_mass, damped_inertia;  ///< times the damping; 0 where held
+  std::vector<double> mass, inertia, bend_l, bend_m, bend_t;
+  std::vector<double> damping;
+  std::vector<double> moved_mass;               ///< mass with that of the roots merged into the node
+  std::vector<Vec3> offset;                     ///< (0, r a, r b): q - p in the rest node frame
+  std::vector<int> twist_index;                 ///< place among the twist states, -1 where left out
+  std::vector<char> anchored;                   ///< named by an anchor of the scene
+  std::vector<char> held_position, held_frame;  ///< by an anchor, or by riding on a parent
+  std::vector<char> begins, ends;               ///< a rod
+  Column inverse_mass;                          ///< of what moves with the node; 0 where it is held
+  Column inverse_inertia;                       ///< 0 where the frame is held, and without twist
+  Column free_inertia;                          ///< likewise
+  Column damped_mass, damped_inertia;           ///< times the damping; 0 where held
+  std::vector<std::size_t> held_positions;      ///< by node
   /// Held nodes, but for those that pass what they feel to the node they ride on.
   std::vector<std::size_t> driven_positions, driven_frames;
 
@@ -54,27 +58,21 @@ struct System::Model {
   /// Neighbouring rods with the same kind of springs, as one range of nodes [first, end).
   struct Segment {
     std::size_t first, end;
-    bool twist;    ///< has the twist state
-    bool third;    ///< has springs on the angle to the tangent
-    bool viscous;  ///< some spring resists
+    bool twist;     ///< has the twist state
+    bool third;     ///< has springs on the angle to the tangent
+    bool straight;  ///< at rest
+    bool viscous;   ///< some spring resists
   };
   std::vector<Segment> segments;
 
-  /// The bending springs once more, as loops over nodes read them: stiffness 0 where there is no edge.
-  struct BendingSide {
-    std::vector<double> k_l, k_m, k_t, rest_l, rest_m, rest_t, viscosity;
-    struct View {
-      const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
-    };
-    View view() const {
-      return {k_l.data(),    k_m.data(),    k_t.data(),      rest_l.data(),
-              rest_m.data(), rest_t.data(), viscosity.data()};
-    }
-  };
+  /// The bending springs once more, as loops over nodes read them. At a free node with two edges a and b the
+  /// tangent halves the angle between them: in its frame b deviates by as much as a does, the other way.
+  /// Springs and rest angles are those of b; where there are not two edges, or the frame is held, all are 0.
   struct Bending {
-    std::array<BendingSide, 2> side;       ///< with the edge before the node, with that after it
-    std::vector<double> hinge;             ///< per node of a rod without twist; 0 at ends and held frames
+    Column k_l, k_m, k_t, rest_l, rest_m, rest_t;
+    Column hinge;                          ///< of a rod without twist
     std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
+    std::vector<std::size_t> held;         ///< nodes with a held frame of rods with twist
   };
   Bending bending;
 
@@ -111,7 +109,7 @@ struct System::Model {
   void choose_twist();
   void choose_forces();
   void lay_out_springs();
-  void lay_out_bending(const NodeRange& rod);
+  void lay_out_bending(std::size_t node);
   std::string twist_source(std::size_t rod) const;
 };
 

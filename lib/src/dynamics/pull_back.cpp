@@ -11,30 +11,39 @@ using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
 
-/// The part of a tangent's gradient that its edges feel.
-TENDRIL_LANES void through_tangents(const Segment& segment, Workspace& work) {
-  const Reader t(work.frame.z), g(work.g_tangent);
-  const Writer to(work.g_bisector);
-  const double* __restrict inverse = work.inverse_bisector.data();
-  TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
-    const V3 gi = g.at(i);
-    const V3 ti = t.at(i);
-    to.put(i, inverse[i] * (gi - lanes::dot(gi, ti) * ti));
-  }
-}
-
-TENDRIL_LANES void through_edges(std::size_t nodes, Workspace& work) {
-  const Reader e(work.e), before(work.g_before), after(work.g_after), bisector(work.g_bisector);
+/// Forces along edges [first, end), whose gradients come from the bending at their two nodes and, with
+/// Tangents, through the tangents there: by each edge of a node b (g - (g.t) t), b = 1 / |e_a + e_b|, where g
+/// is across t already.
+template <bool Tangents>
+TENDRIL_INLINE void through_edges(std::size_t first, std::size_t end, Workspace& work) {
+  const Reader e(work.e), bend(work.g_bend), tangent(work.g_tangent);
   const Writer to(work.edge_force);
-  const double* __restrict g_length = work.g_length.data(), * __restrict inverse = work.inverse_length.data();
+  const double *__restrict g_length = work.g_length.data(), *__restrict inverse = work.inverse_length.data(),
+               *__restrict b = work.inverse_bisector.data();
   TENDRIL_LOOP
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const V3 g = (after.at(i) + before.at(i + 1)) + (bisector.at(i) + bisector.at(i + 1));
+  for (std::size_t i = first; i < end; ++i) {
+    V3 g = bend.at(i) - bend.at(i + 1);
+    if constexpr (Tangents) g = g + b[i] * tangent.at(i) + b[i + 1] * tangent.at(i + 1);
     const V3 ei = e.at(i);
     const double along = g_length[i] - inverse[i] * lanes::dot(ei, g);
     to.put(i, inverse[i] * g + along * ei);
   }
+}
+TENDRIL_LANES void through_hinges(std::size_t first, std::size_t end, Workspace& work) {
+  through_edges<false>(first, end, work);
+}
+TENDRIL_LANES void through_frames(std::size_t first, std::size_t end, Workspace& work) {
+  through_edges<true>(first, end, work);
+}
+
+/// What springs at a held frame give the edges at its node.
+void through_held_edges(std::size_t node, Workspace& work) {
+  const auto add = [&](std::size_t i, const Vec3& g) {
+    const Vec3 e = work.e[i];
+    work.edge_force.add(i, work.inverse_length[i] * (g - e.dot(g) * e));
+  };
+  add(node - 1, work.g_before[node]);
+  add(node, work.g_after[node]);
 }
 
 TENDRIL_LANES void to_masses(std::size_t nodes, Workspace& work) {
@@ -69,11 +78,16 @@ void pass_on_force(const System::Model::Ride& ride, Workspace& work) {
 
 }  // namespace
 
-void pull_back(const Model& model, Workspace& work) {
+void pull_on_edges(const Model& model, Workspace& work) {
   for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_torque(*ride, work);
   for (const Segment& s : model.segments)
-    if (s.twist || model.loaded) through_tangents(s, work);
-  through_edges(model.nodes, work);
+    (s.twist || model.loaded ? through_frames : through_hinges)(s.first, s.end, work);
+  for (const auto* held : {&model.bending.held, &model.bending.held_hinges})
+    for (const std::size_t node : *held) through_held_edges(node, work);
+}
+
+void pull_back(const Model& model, Workspace& work) {
+  pull_on_edges(model, work);
   to_masses(model.nodes, work);
   if (model.loaded)
     for (std::size_t i = 0; i < model.nodes; ++i) work.force.add(i, work.load[i]);

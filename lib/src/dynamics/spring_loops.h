@@ -16,7 +16,7 @@ struct Loops {
 };
 
 /// Stretches of this length are done again with the far loop where the near one does not hold.
-constexpr std::size_t kStretch = 32;
+constexpr std::size_t kStretch = 128;
 
 inline bool run(const Loops& loops, const System::Model& model, const State& reference,
                 const System::Model::Segment& segment, System::Workspace& work) {
@@ -34,7 +34,12 @@ inline bool run(const Loops& loops, const System::Model& model, const State& ref
 Evaluation hinge(const System::Model& model, const State& reference, const System::Model::Segment& segment,
                  bool energy, System::Workspace& work);
 
-/// The edges at a held frame of a rod without twist: 1/2 K angle^2 each. Returns the energy.
+/// The springs between the edges at a node and its held frame, of a rod without twist: 1/2 K angle^2 each.
+/// What they give the edges goes to g_before and g_after. Returns the energy.
 double bend_held(const System::Model& model, std::size_t node, System::Workspace& work);
+
+/// The same for a rod with twist; adds what the frame feels. With `viscous` each but the third resists.
+double pull_on_held(const System::Model& model, std::size_t node, bool viscous, System::Workspace& work,
+                    double& heat);
 
 }  // namespace tendril

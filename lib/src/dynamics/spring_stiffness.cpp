@@ -49,10 +49,9 @@ Component along_m(const Frame& f, const EdgeAngles& at) {
 
 /// Adds the spring W(q) with q one of the components at node `side`: W'' grad grad^T + W' hess.
 void add(const Component& q, std::size_t side, double slope, double curvature, SpringStiffness& s) {
-  if (side == 0) {
-    s.g_t += slope * q.t;
-    s.g_theta += slope * q.theta;
-  }
+  s.g_e += slope * q.e;
+  s.g_t[side] += slope * q.t;
+  if (side == 0) s.g_theta += slope * q.theta;
   const Vec3 e = curvature * q.e;
   const Vec3 t = curvature * q.t;
   s.ee += e * q.e.transpose();
@@ -103,7 +102,7 @@ void add_bending(const Model& model, std::size_t i, std::size_t side, double vis
   double l = a.l - model.rest_l[end];
   double m = a.m - model.rest_m[end];
   if (viscosity > 0.0) {
-    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate[node], work.spin[node]);
+    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate(node), work.spin[node]);
     l += viscosity * rate.l;
     m += viscosity * rate.m;
   }
@@ -137,7 +136,7 @@ void add_twist(const Model& model, std::size_t i, const Workspace& work, double 
   const double k = 1.0 + ta.dot(tb);
   const Vec3 c = ta.cross(tb) / k;
   const double torque = model.twist[i] * strain;
-  s.g_t += torque * c;
+  for (Vec3& g : s.g_t) g += torque * c;
   s.g_theta -= torque;
   add_twist_gradient(model.twist[i], c, s);
   const Mat3 by_a = -(cross_matrix(tb) + c * tb.transpose()) / k;
@@ -175,7 +174,7 @@ SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State&
   if (viscosity > 0.0) {
     const Vec3 ta = work.frame.z[i];
     const Vec3 tb = work.frame.z[i + 1];
-    const Vec3 turning = Vec3(work.t_rate[i]) + Vec3(work.t_rate[i + 1]);
+    const Vec3 turning = work.t_rate(i) + work.t_rate(i + 1);
     strain += viscosity * (work.spin[i + 1] - work.spin[i] + ta.cross(tb).dot(turning) / (1.0 + ta.dot(tb)));
   }
   add_twist(model, i, work, strain, s);
@@ -198,7 +197,7 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Works
 }
 
 void ride(const Vec3& t, const Vec3& t0, SpringStiffness& s) {
-  const Vec3 g = s.g_t;
+  const Vec3 g = s.g_t[0];
   const double g_theta = s.g_theta;
   Eigen::Matrix4d first;
   first << t0.dot(t) * Mat3::Identity() - t * t0.transpose(), t.cross(t0), t0.cross(t).transpose(), t0.dot(t);

@@ -8,8 +8,9 @@ namespace tendril {
 /// angle theta at its two nodes, in the expansion t_s + d, theta about the present frames. Blocks (row by
 /// column); what is symmetric stands once.
 struct SpringStiffness {
-  // Slopes, as far as needed: by t and theta of the first node.
-  Vec3 g_t = Vec3::Zero();
+  // Slopes: by e, by t of either node, and by theta of the first.
+  Vec3 g_e = Vec3::Zero();
+  Vec3 g_t[2] = {Vec3::Zero(), Vec3::Zero()};
   double g_theta = 0.0;
 
   Mat3 ee = Mat3::Zero();

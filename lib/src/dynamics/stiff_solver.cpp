@@ -310,7 +310,7 @@ class BlockSolver : public StiffSolver {
   bool add_viscous_gradient(const State& state) {
     double heat = 0.0;
     if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return false;
-    if (!elastic(model_, state, true, work_, heat).ok()) return false;
+    if (!elastic(model_, state, {.viscous = true, .gyroscopic = false}, work_, heat).ok()) return false;
     pull_back(model_, work_);
     for (std::size_t i = 0; i < model_.nodes; ++i)
       if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = work_.g_spin[i];

@@ -2,10 +2,13 @@
 #include <tendril/dynamics/forces.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <typeinfo>
 
+#include "column_access.h"
 #include "elastic.h"
-#include "lanes.h"
 
 namespace tendril {
 namespace {
@@ -49,7 +52,7 @@ double add_external(const Model& model, double t, Workspace& work) {
     if (!force->has_energy()) force->add(state, loads);
   double power = 0.0;
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    const Vec3 turning = work.seen_t[i].cross(work.t_rate[i]) + work.spin[i] * work.seen_t[i];
+    const Vec3 turning = Vec3(work.turning[i]) + work.spin[i] * work.seen_t[i];
     power += work.load[i].dot(work.seen_v[i]) + work.torque[i].dot(turning);
   }
   for (const auto& force : model.scene.forces)
@@ -63,24 +66,11 @@ void add_torques(const Model& model, Workspace& work) {
     if (!work.torque[i].isZero(0.0)) work.g_tangent.add(i, -work.torque[i].cross(work.seen_t[i]));
 }
 
-/// The gyroscopic force of the spin, likewise.
-TENDRIL_LANES void add_gyroscopic(const Model& model, const Model::Segment& segment, Workspace& work) {
-  const double* __restrict inertia = model.inertia.data(), * __restrict inverse_inertia =
-                                                               model.inverse_inertia.data();
-  const double *__restrict tx = work.frame.z.x.data(), *__restrict ty = work.frame.z.y.data(),
-               *__restrict tz = work.frame.z.z.data();
-  const double *__restrict rx = work.t_rate.x.data(), *__restrict ry = work.t_rate.y.data(),
-               *__restrict rz = work.t_rate.z.data();
-  double *__restrict gx = work.g_tangent.x.data(), *__restrict gy = work.g_tangent.y.data(),
-         *__restrict gz = work.g_tangent.z.data();
-  const double* __restrict spin = work.spin.data();
-  TENDRIL_LOOP
-  for (std::size_t i = segment.first; i < segment.end; ++i) {
-    const double s = inverse_inertia[i] > 0.0 ? inertia[i] * spin[i] : 0.0;
-    gx[i] -= s * (ty[i] * rz[i] - tz[i] * ry[i]);
-    gy[i] -= s * (tz[i] * rx[i] - tx[i] * rz[i]);
-    gz[i] -= s * (tx[i] * ry[i] - ty[i] * rx[i]);
-  }
+/// Forces along all edges, and on the masses that anchors hold.
+void pull_on_held_nodes(const Model& model, Workspace& work) {
+  pull_on_edges(model, work);
+  for (const std::size_t i : model.driven_positions)
+    work.force.set(i, Vec3(work.edge_force[i]) - Vec3(work.edge_force[i - 1]));
 }
 
 /// Power that anchors put in: against the whole force on a held position and the whole torque on a held
@@ -88,14 +78,14 @@ TENDRIL_LANES void add_gyroscopic(const Model& model, const Model::Segment& segm
 double anchor_power(const Model& model, const Workspace& work) {
   double power = 0.0;
   for (const std::size_t i : model.driven_frames)
-    power += work.g_tangent[i].dot(work.t_rate[i]) +
+    power += work.g_tangent[i].dot(work.t_rate(i)) +
              (work.g_spin[i] - (model.loaded ? work.torque[i].dot(work.frame.z[i]) : 0.0)) * work.spin[i];
   for (const std::size_t i : model.driven_positions)
     power -= (work.force[i] + model.moved_mass[i] * model.gravity).dot(work.v[i]);
   return power;
 }
 
-/// In eight sums, each in the order of the nodes: vector code that gives the same bits as any other.
+/// In eight sums, each in the order of the nodes, so that it may be vector code.
 TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
   const double *__restrict vx = work.v.x.data(), *__restrict vy = work.v.y.data(),
                *__restrict vz = work.v.z.data(), *__restrict spin = work.spin.data();
@@ -115,44 +105,78 @@ TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
   return -power;
 }
 
-/// p' and v' of all nodes; 0 where the position is held.
-TENDRIL_LANES void move(const Model& model, const Workspace& work, double* __restrict dp,
-                        double* __restrict dv) {
-  const double *__restrict fx = work.force.x.data(), *__restrict fy = work.force.y.data(),
-               *__restrict fz = work.force.z.data();
-  const double* __restrict vx = work.v.x.data(), * __restrict vy = work.v.y.data(), * __restrict vz = work.v.z.data();
+TENDRIL_INLINE std::int64_t no_number(double x) {
+  return std::fabs(x) <= std::numeric_limits<double>::max() ? 0 : 1;
+}
+
+/// v' of all nodes, from the forces on them, or from those along the edges where there is nothing else; 0
+/// where the position is held. False where one is not finite.
+template <bool ByEdges>
+TENDRIL_INLINE bool accelerate(const Model& model, const Workspace& work, double* __restrict dv) {
+  const lanes::Reader force(ByEdges ? work.edge_force : work.force), v(work.v);
   const double* __restrict inverse_mass = model.inverse_mass.data(), * __restrict damping =
                                                                          model.damping.data();
-  const double gx = model.gravity.x();
-  const double gy = model.gravity.y();
-  const double gz = model.gravity.z();
+  const lanes::V3 gravity{model.gravity.x(), model.gravity.y(), model.gravity.z()};
+  std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = 0; i < model.nodes; ++i) {
     const double s = inverse_mass[i];
     const double free = s > 0.0 ? 1.0 : 0.0;
-    dp[3 * i] = free * vx[i];
-    dp[3 * i + 1] = free * vy[i];
-    dp[3 * i + 2] = free * vz[i];
-    dv[3 * i] = s * fx[i] + free * (gx - damping[i] * vx[i]);
-    dv[3 * i + 1] = s * fy[i] + free * (gy - damping[i] * vy[i]);
-    dv[3 * i + 2] = s * fz[i] + free * (gz - damping[i] * vz[i]);
+    lanes::V3 f = force.at(i);
+    if constexpr (ByEdges) f = f - force.at(i - 1);
+    const lanes::V3 a = s * f + free * (gravity - damping[i] * v.at(i));
+    dv[3 * i] = a.x;
+    dv[3 * i + 1] = a.y;
+    dv[3 * i + 2] = a.z;
+    bad |= no_number(a.x) | no_number(a.y) | no_number(a.z);
   }
+  return bad == 0;
 }
 
-/// theta' and w' of the nodes of a segment; 0 where the frame is held.
-TENDRIL_LANES void turn(const Model& model, const Model::Segment& segment, const Workspace& work,
+TENDRIL_LANES bool accelerate_by_edges(const Model& model, const Workspace& work, double* dv) {
+  return accelerate<true>(model, work, dv);
+}
+TENDRIL_LANES bool accelerate_by_masses(const Model& model, const Workspace& work, double* dv) {
+  return accelerate<false>(model, work, dv);
+}
+
+/// p' of all nodes; 0 where the position is held.
+void move(const Model& model, const Eigen::VectorXd& y, Eigen::VectorXd& dy) {
+  std::copy_n(y.data() + model.v_begin(), model.v_begin(), dy.data());
+  for (const std::size_t i : model.held_positions) dy.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
+}
+
+/// theta' and w' of the nodes of a segment; 0 where the frame is held. False where one is not finite.
+TENDRIL_LANES bool turn(const Model& model, const Model::Segment& segment, const Workspace& work,
                         double* __restrict turned, double* __restrict spun) {
   const double *__restrict spin = work.spin.data(), *__restrict connection = work.connection.data(),
                *__restrict g_spin = work.g_spin.data();
   const double* __restrict inverse_inertia = model.inverse_inertia.data(), * __restrict damping =
                                                                                model.damping.data();
+  std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     const double s = inverse_inertia[i];
     const double free = s > 0.0 ? 1.0 : 0.0;
-    turned[i - segment.first] = free * (spin[i] + connection[i]);
-    spun[i - segment.first] = -s * g_spin[i] - free * damping[i] * spin[i];
+    const double by = free * (spin[i] + connection[i]);
+    const double to = -s * g_spin[i] - free * damping[i] * spin[i];
+    turned[i - segment.first] = by;
+    spun[i - segment.first] = to;
+    bad |= no_number(by) | no_number(to);
   }
+  return bad == 0;
+}
+
+/// What external torques give the spins. False where one is not finite.
+bool add_spin_torques(const Model& model, const Workspace& work, Eigen::VectorXd& dy) {
+  bool finite = true;
+  for (std::size_t i = 0; i < model.nodes; ++i) {
+    if (!model.has_twist(i)) continue;
+    double& spun = dy[model.spin_begin() + model.twist_index[i]];
+    spun += model.inverse_inertia[i] * work.torque[i].dot(work.seen_t[i]);
+    finite &= std::isfinite(spun);
+  }
+  return finite;
 }
 
 }  // namespace
@@ -209,41 +233,42 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
   if (const Evaluation at = kinematics(model, reference, t, y, what, work); !at.ok()) return at;
   double heat = 0.0;
   if (!springs)
-    relax(work);
-  else if (const Evaluation at = elastic(model, reference, true, work, heat); !at.ok())
+    relax(model, true, work);
+  else if (const Evaluation at = elastic(model, reference, {true, true}, work, heat); !at.ok())
     return at;
   double power = -heat;
   if (model.loaded) {
     power += add_external(model, t, work);
     add_torques(model, work);
   }
-  for (const Model::Segment& s : model.segments)
-    if (s.twist) add_gyroscopic(model, s, work);
-  pull_back(model, work);
+  const bool by_edges = !model.loaded && model.rides.empty();
+  if (by_edges)
+    pull_on_held_nodes(model, work);
+  else
+    pull_back(model, work);
   power += anchor_power(model, work);
   if (model.damped) power += damping_power(model, work);
 
   dy.resize(model.size());
-  move(model, work, dy.data(), dy.data() + model.v_begin());
+  move(model, y, dy);
+  bool finite = std::isfinite(power);
+  const auto accelerate_all = by_edges ? accelerate_by_edges : accelerate_by_masses;
+  finite &= accelerate_all(model, work, dy.data() + model.v_begin());
   for (const Model::Segment& s : model.segments) {
     if (!s.twist) continue;
     const Eigen::Index k = model.twist_index[s.first];
-    turn(model, s, work, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
+    finite &= turn(model, s, work, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
   }
-  if (model.loaded)
-    for (std::size_t i = 0; i < model.nodes; ++i)
-      if (model.has_twist(i))
-        dy[model.spin_begin() + model.twist_index[i]] +=
-            model.inverse_inertia[i] * work.torque[i].dot(work.seen_t[i]);
+  if (model.loaded) finite &= add_spin_torques(model, work, dy);
   dy[model.work_index()] = power;
-  return all_finite(dy) ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
+  return finite ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
 }
 
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
                                   Eigen::VectorXd& loads, Workspace& work) {
   if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, work); !at.ok())
     return at;
-  relax(work);
+  relax(model, false, work);
   const StateView state = view(model, reference.time, work);
   const Loads to = no_loads(work);
   for (const auto& force : model.scene.forces)

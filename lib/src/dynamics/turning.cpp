@@ -29,7 +29,7 @@ Mat3 project_left(const Mat3& a, const Vec3& e) {
 TurningTerms turning_terms(const System::Model& model, std::size_t i, double g_spin,
                            const System::Workspace& work) {
   const Vec3 t = work.frame.z[i];
-  const Vec3 t_rate = work.t_rate[i];
+  const Vec3 t_rate = work.t_rate(i);
   const double s = work.inverse_bisector[i];
   const double inertia = model.inertia[i];
   const double momentum = inertia * work.spin[i];

@@ -75,7 +75,7 @@ class ViscousTurning {
     double fastest = 1e-2;
     for (std::size_t i = 0; i < model_.nodes; ++i)
       fastest = std::max(
-          {fastest, Vec3(work.e_rate[i]).norm(), Vec3(work.t_rate[i]).norm(), std::abs(work.spin[i])});
+          {fastest, Vec3(work.e_rate[i]).norm(), Vec3(work.turning[i]).norm(), std::abs(work.spin[i])});
     return 1e-5 / fastest;
   }
 

@@ -14,7 +14,8 @@ class System::Workspace {
   std::vector<AnchorPose> pose;  ///< per anchor
 
   // Kinematics: positions, edges, frames, and their rates.
-  Columns3 p, v, e, e_rate, t_rate;
+  Columns3 p, v, e, e_rate;
+  Columns3 turning;  ///< of the tangents, t x t'
   FrameColumns frame;
   Column length, inverse_length, length_rate;
   Column inverse_bisector;  ///< of the unit edges' sum; 0 where the frame is held
@@ -22,9 +23,9 @@ class System::Workspace {
 
   // Gradients of the energy (with the viscous part where asked for): by the unit edges, as the springs at
   // their two nodes give it and as the tangents pass it on, by the tangents and by the spins.
-  Columns3 g_before, g_after;  ///< by the edge before and after a node, from the springs at the node
-  Columns3 g_bisector;         ///< by each of the two edges, through the node's tangent
-  Columns3 g_tangent;
+  Columns3 g_bend;             ///< by the edge after a free node, minus that by the edge before
+  Columns3 g_before, g_after;  ///< by the edges at a held frame; elsewhere they stay 0
+  Columns3 g_tangent;          ///< across the tangent
   Column g_spin, g_length;
   Columns3 twist_tangent;  ///< per edge: what its twist spring gives either tangent
   Column twist_torque;     ///< per edge
@@ -36,10 +37,7 @@ class System::Workspace {
   std::vector<Vec3> seen_p, seen_v, seen_t, seen_m, load, torque;
   std::vector<double> seen_spin;
 
-  /// Gradient by the unit edge i.
-  Vec3 g_edge(std::size_t i) const {
-    return g_after[i] + g_before[i + 1] + g_bisector[i] + g_bisector[i + 1];
-  }
+  Vec3 t_rate(std::size_t i) const { return Vec3(turning[i]).cross(Vec3(frame.z[i])); }
 };
 
 }  // namespace tendril
