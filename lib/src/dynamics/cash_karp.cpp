@@ -1,7 +1,6 @@
 #include <tendril/dynamics/cash_karp.h>
 
 #include "combine.h"
-#include "elastic.h"
 
 namespace tendril {
 
@@ -22,17 +21,17 @@ Evaluation CashKarp::step(const State& state, double h, Eigen::VectorXd& y, Eige
     if (!at.ok()) return at;
     if (s == 0) first_known_ = true;
   }
-  Term solution[6];
-  Term difference[6];
-  std::size_t of_solution = 0;
-  std::size_t of_difference = 0;
+  Term terms[5];
+  double error_weights[5];
+  std::size_t count = 0;
   for (std::size_t s = 0; s < k_.size(); ++s) {
-    if (T::c[s] != 0.0) solution[of_solution++] = {h * T::c[s], &k_[s]};
-    if (T::c[s] != T::c_star[s]) difference[of_difference++] = {h * (T::c[s] - T::c_star[s]), &k_[s]};
+    if (T::c[s] == 0.0 && T::c_star[s] == 0.0) continue;
+    terms[count] = {h * T::c[s], &k_[s]};
+    error_weights[count++] = h * (T::c[s] - T::c_star[s]);
   }
-  combine(&state.y, solution, of_solution, y);
-  combine(nullptr, difference, of_difference, error);
-  return all_finite(y) && all_finite(error) ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
+  if (!combine_both(state.y, terms, error_weights, count, y, error))
+    return {Evaluation::Outcome::not_finite, 0};
+  return {};
 }
 
 Evaluation CashKarp::advance(State& state, double h) {

@@ -215,8 +215,10 @@ bool Controller::step_towards(double target) {
     last = embedded_->step(state_, h, y_, error_);
     const double error = last.ok() ? error_norm(error_) : 0.0;
     if (last.ok() && error <= 1.0) {
-      next_ = state_;
       next_.y.swap(y_);
+      next_.tangent = state_.tangent;
+      next_.director = state_.director;
+      next_.twist = state_.twist;
       next_.time = at.time;
       last = system_.rebase(next_, workspace());
       if (last.ok()) {
