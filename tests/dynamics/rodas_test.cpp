@@ -72,6 +72,26 @@ TEST(Rodas, ConvergesAtOrderFourWhenStronglyViscous) {
   EXPECT_NEAR(order_of(system, system.rest_state(), 0.4, 100), 4.0, 0.35);
 }
 
+/// What damping takes out is summed up as well as the motion is known.
+TEST(Rodas, CountsWorkAtOrderFour) {
+  Scene scene = hanging(8, 1e5, true).scene();
+  scene.rods[0].mass_damping = 2.0;
+  const System system(scene);
+  const auto work = system.make_workspace();
+  const auto imbalance = [&](int steps) {
+    State state = system.rest_state();
+    const double before = system.energies(state, *work).total() - state.y[state.y.size() - 1];
+    Rodas rodas(system);
+    for (int i = 0; i < steps; ++i)
+      if (!rodas.advance(state, 0.4 / steps).ok()) throw std::runtime_error("step failed");
+    return std::abs(system.energies(state, *work).total() - state.y[state.y.size() - 1] - before);
+  };
+  const double first = imbalance(200), second = imbalance(400);
+  std::printf("RODAS, damped: energy off by %.2e %.2e, order %.2f\n", first, second,
+              std::log2(first / second));
+  EXPECT_GT(std::log2(first / second), 3.5);
+}
+
 TEST(Rodas, AgreesWithCashKarpOnAStiffRodInFarFewerSteps) {
   const System system = hanging(32, 1e8, true, 1e-4);
   Eigen::VectorXd end[2];

@@ -30,5 +30,22 @@ TEST(Column, LeavesTheUprightStateOnlyWhereItIsAskedForAStableOne) {
   EXPECT_EQ(balanced(system, options).state.y, bent.state.y);
 }
 
+/// A load that may change with time has the potential of one that cannot.
+TEST(DeadLoad, HasItsPotentialWhateverItsSignal) {
+  const Vec3 load(0.2, 0, -1.5);
+  for (const Signal& signal : {Signal::constant(load.norm()), Signal::table({{0.0, load.norm()}})}) {
+    Scene scene;
+    scene.rods.push_back(test::unit_rod(20, 1e-3));
+    scene.anchors.push_back({0, 0, true, true, {}});
+    scene.forces.push_back(
+        std::make_shared<PointLoad>(PointLoad::Kind::force, 0, 20, load.normalized(), signal));
+    const System system(scene);
+    const Equilibrium bent = balanced(system);
+    const Vec3 tip = test::at(bent.state.y, 20);
+    EXPECT_GT(std::abs(tip.z()), 0.1);
+    EXPECT_NEAR(bent.potential, -load.dot(tip), 1e-12 * load.norm());
+  }
+}
+
 }  // namespace
 }  // namespace tendril
