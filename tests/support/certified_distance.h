@@ -30,9 +30,9 @@ class CertifiedDistance {
       for (std::size_t i = 0; i <= degree_; ++i)
         for (std::size_t c = 0; c < 3; ++c)
           relative[i][c] -= static_cast<long double>(p[static_cast<Eigen::Index>(c)]);
-      worst =
-          std::max(worst, ask(relative, static_cast<long double>(distance) * distance, 0),
-                   [](Answer a, Answer b) { return b == nearer || (a == none_nearer && b == undecided); });
+      worst = std::max(
+          worst, ask(relative, static_cast<long double>(distance) * static_cast<long double>(distance), 0),
+          [](Answer a, Answer b) { return b == nearer || (a == none_nearer && b == undecided); });
       if (worst == nearer) break;
     }
     return worst;
@@ -59,11 +59,12 @@ class CertifiedDistance {
       for (std::size_t c = 0; c < 3; ++c) {
         std::array<Wide, kMaxDegree + 1> d{};
         for (std::size_t i = 0; i <= degree_; ++i)
-          d[i] = curve.control_points()[k - degree_ + i][static_cast<Eigen::Index>(c)];
+          d[i] = static_cast<Wide>(curve.control_points()[k - degree_ + i][static_cast<Eigen::Index>(c)]);
         for (std::size_t r = 1; r <= degree_; ++r)
           for (std::size_t i = degree_; i >= r; --i) {
-            const Wide low = knots[k - degree_ + i], high = knots[k + 1 + i - r];
-            const Wide share = (Wide(r <= j ? knots[k + 1] : knots[k]) - low) / (high - low);
+            const auto low = static_cast<Wide>(knots[k - degree_ + i]);
+            const auto high = static_cast<Wide>(knots[k + 1 + i - r]);
+            const Wide share = (static_cast<Wide>(r <= j ? knots[k + 1] : knots[k]) - low) / (high - low);
             d[i] = d[i - 1] + share * (d[i] - d[i - 1]);
           }
         out[j][c] = static_cast<long double>(d[degree_]);

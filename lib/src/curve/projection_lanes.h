@@ -51,7 +51,8 @@ TENDRIL_LANES void measure(PieceLanes<P>& lanes, std::size_t count) {
     const SquaredDistance<P> d = squared_distance<P>(r);
     const auto [least_slope, most_slope] = slope_range<P>(d);
     const double bend = convexity<P>(d);
-    const bool rooted = (bend > 0.0) & (d.slope[0] < 0.0) & (d.slope[2 * P - 1] > 0.0);
+    const double front = d.slope[0], back = d.slope[2 * P - 1];
+    const bool rooted = (bend > 0.0) & (front < 0.0) & (back > 0.0);
     double which = rooted ? fate::root : fate::open;
     which = most_slope < -d.slope_error ? fate::end : which;
     which = least_slope > d.slope_error ? fate::start : which;
