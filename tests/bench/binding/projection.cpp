@@ -84,7 +84,7 @@ Answer ask(Projector& peer, const std::vector<Vec3>& points, const std::vector<d
 /// Of a point, asked for one by one, each with its neighbour's parameter as a hint.
 double seconds_alone(const CurveProjector& projector, const std::vector<Vec3>& points,
                      const Settings& settings) {
-  return fastest(settings.quick ? 2 : 5,
+  return fastest(settings.quick ? 3 : 15,
                  [&] {
                    double hint = 0.5;
                    for (const Vec3& p : points) hint = projector.nearest(p, hint).t;
@@ -118,7 +118,7 @@ OrderedJson projection_section(Settings& settings) {
       const CurveProjector projector(curve);
       const double alone = seconds_alone(projector, points, settings);
       std::vector<Projection> found;
-      const double seconds = fastest(settings.quick ? 2 : 5, [&] { found = projector.nearest(points); }) /
+      const double seconds = fastest(settings.quick ? 3 : 15, [&] { found = projector.nearest(points); }) /
                              static_cast<double>(points.size());
       std::vector<double> ours;
       for (const Projection& at : found) ours.push_back(at.distance);
