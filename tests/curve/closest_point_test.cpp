@@ -144,7 +144,7 @@ TEST(NearestPoint, AnswersWithTheCurveAtItsParameter) {
       const Vec3 p = random.in_cube(8.0);
       const Projection at = projector.nearest(p);
       EXPECT_EQ(at.point, named.curve.value(at.t)) << named.name;
-      EXPECT_DOUBLE_EQ(at.distance, (at.point - p).norm()) << named.name;
+      EXPECT_EQ(at.distance, (at.point - p).norm()) << named.name;
       EXPECT_GE(at.gap, 0.0);
       EXPECT_TRUE(at.kind != ProjectionKind::interior || at.lambda > -1e-6) << named.name;
     }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/vector_loops.h"
+#include "base/plain_vector.h"
 
 /// The distance from a point to a Bezier piece of degree P, on plain numbers and without branches: one source
 /// for the search of one point and for many points side by side in vector lanes, so that both give the same
@@ -23,34 +23,12 @@ inline constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 /// Times a norm: not above what the norm is without rounding.
 inline constexpr double kLess = 1.0 - 4.0 * kUnit;
 
-/// Eigen's vectors would keep loops from being vectorised.
-struct Place {
-  double x, y, z;
-};
-TENDRIL_INLINE Place operator+(const Place& a, const Place& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-TENDRIL_INLINE Place operator-(const Place& a, const Place& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-TENDRIL_INLINE Place operator*(double s, const Place& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-TENDRIL_INLINE double dot(const Place& a, const Place& b) {
-  return a.x * b.x + (a.y * b.y + a.z * b.z);
-}
-TENDRIL_INLINE double norm(const Place& a) {
-  return std::sqrt(dot(a, a));
-}
-TENDRIL_INLINE double larger(double a, double b) {
-  return a > b ? a : b;
-}
-TENDRIL_INLINE double smaller(double a, double b) {
-  return a < b ? a : b;
-}
+using lanes::larger;
+using lanes::smaller;
+using lanes::V3;
 
 template <int P>
-using Control = std::array<Place, P + 1>;
+using Control = std::array<V3, P + 1>;
 
 /// f(constant 0) ... f(constant N - 1), written out: a vector loop may hold no other.
 template <std::size_t N, class F>
@@ -94,7 +72,7 @@ TENDRIL_INLINE SquaredDistance<P> squared_distance(const Control<P>& r) {
   each<2 * P>([&](auto k) __attribute__((always_inline)) { d.slope[k] = 0.0; });
   double edge2 = 0.0;
   each<P>([&](auto j) __attribute__((always_inline)) {
-    const Place e = r[j + 1] - r[j];
+    const V3 e = r[j + 1] - r[j];
     edge2 = larger(dot(e, e), edge2);
     each<P + 1>([&](auto i) __attribute__((always_inline)) {
       d.slope[i + j] += kSlopeWeights<P>[i][j] * dot(r[i], e);
@@ -136,7 +114,7 @@ TENDRIL_INLINE double convexity(const SquaredDistance<P>& d) {
 
 /// Value and derivatives of a Bezier curve at s.
 struct Jet {
-  Place c, d1, d2;
+  V3 c, d1, d2;
 };
 
 template <int P>
@@ -147,7 +125,7 @@ TENDRIL_INLINE Jet jet(const Control<P>& points, double s) {
     each<P - 2>([&](auto level) __attribute__((always_inline)) {
       each<P - level>([&](auto i) __attribute__((always_inline)) { q[i] = r * q[i] + s * q[i + 1]; });
     });
-  Place second{0.0, 0.0, 0.0};
+  V3 second{0.0, 0.0, 0.0};
   if constexpr (P > 1) {
     second = static_cast<double>(P * (P - 1)) * ((q[2] - q[1]) - (q[1] - q[0]));
     q[0] = r * q[0] + s * q[1];

@@ -35,16 +35,16 @@ Projection describe(const CurveProjector::Data& data, const Vec3& p,
   Projection result{
       t, combine(basis, curve.degree(), curve.control_points()), 0.0, ProjectionKind::interior, 0.0, 0.0};
   const Vec3 offset = result.point - p;
-  const search::Place away = search::place(offset);
-  result.distance = search::norm(away);
+  const lanes::V3 away = search::plain(offset);
+  result.distance = lanes::norm(away);
   result.gap = std::max(0.0, result.distance - std::max(0.0, found.least));
   const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
   const auto at = static_cast<std::size_t>(span);
-  const search::Place velocity = search::place(d1);
-  const bool rest = data.at_rest(search::norm(velocity), knots.knots()[at + 1] - knots.knots()[at]);
+  const lanes::V3 velocity = search::plain(d1);
+  const bool rest = data.at_rest(lanes::norm(velocity), knots.knots()[at + 1] - knots.knots()[at]);
   if (!rest) {
     const Vec3 d2 = combine(basis, curve.degree(), curve.control_points(), 2);
-    result.lambda = 1.0 + search::dot(away, search::place(d2)) / search::dot(velocity, velocity);
+    result.lambda = 1.0 + lanes::dot(away, search::plain(d2)) / lanes::dot(velocity, velocity);
   }
   if (t == knots.start()) {
     result.kind = ProjectionKind::start;

@@ -36,7 +36,7 @@ struct Piece {
   double parameter(double s) const { return s == 0.0 ? begin : s == 1.0 ? end : begin + s * (end - begin); }
 };
 
-inline Place place(const Vec3& v) {
+inline V3 plain(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -158,7 +158,7 @@ class Search {
     return true;
   }
 
-  bool take_end(const Piece<P>& piece, double s, const Place& offset) {
+  bool take_end(const Piece<P>& piece, double s, const V3& offset) {
     const double distance = norm(offset);
     candidate(piece.parameter(s), distance);
     prove(distance * kLess);

@@ -7,9 +7,9 @@ namespace tendril::search {
 TENDRIL_LANES void measure(GroupLanes& group, const Segment& segment, double number, double* square) {
   TENDRIL_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const Place q = Place{group.x[i], group.y[i], group.z[i]} - segment.start;
+    const V3 q = V3{group.x[i], group.y[i], group.z[i]} - segment.start;
     const double s = dot(q, segment.axis) * segment.inverse_length2;
-    const Place off = q - smaller(larger(s, 0.0), 1.0) * segment.axis;
+    const V3 off = q - smaller(larger(s, 0.0), 1.0) * segment.axis;
     const double d = dot(off, off);
     square[i] = d;
     const bool nearer = d < group.square[i];
@@ -27,10 +27,10 @@ TENDRIL_LANES void mark(const GroupLanes& group, double radius, const double* sq
   }
 }
 
-TENDRIL_LANES void measure(const double* x, const double* y, const double* z, std::size_t count,
-                           const Place& c, double* distance) {
+TENDRIL_LANES void measure(const double* x, const double* y, const double* z, std::size_t count, const V3& c,
+                           double* distance) {
   TENDRIL_LOOP
-  for (std::size_t i = 0; i < count; ++i) distance[i] = norm(Place{x[i], y[i], z[i]} - c);
+  for (std::size_t i = 0; i < count; ++i) distance[i] = norm(V3{x[i], y[i], z[i]} - c);
 }
 
 TENDRIL_LANES void bisect(const double* x, const double* y, const double* z, const double* radius,
@@ -38,7 +38,7 @@ TENDRIL_LANES void bisect(const double* x, const double* y, const double* z, con
                           unsigned char* beyond) {
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) {
-    const Place apart = Place{x[i], y[i], z[i]} - to.centre;
+    const V3 apart = V3{x[i], y[i], z[i]} - to.centre;
     const double turn =
         to.half.x * std::fabs(apart.x) + to.half.y * std::fabs(apart.y) + to.half.z * std::fabs(apart.z);
     const double sum = distance[i] + to.distance;

@@ -11,7 +11,7 @@ namespace tendril::search {
 
 /// A capsule on plain numbers.
 struct Segment {
-  Place start, axis;
+  V3 start, axis;
   double inverse_length2, radius;
 };
 
@@ -45,12 +45,12 @@ struct Balls {
 };
 
 /// Distances of the balls' centres to c.
-void measure(const double* x, const double* y, const double* z, std::size_t count, const Place& c,
+void measure(const double* x, const double* y, const double* z, std::size_t count, const V3& c,
              double* distance);
 
 /// A box, and a ball that may hold the nearest point to any of its points.
 struct Reference {
-  Place half, centre;     ///< half the box's sides; the ball's centre
+  V3 half, centre;        ///< half the box's sides; the ball's centre
   double distance;        ///< from the box's centre to the ball's
   double margin, across;  ///< the ball's radius and a slack; the box's diagonal
 };

@@ -86,11 +86,11 @@ struct ProjectionBatch<P>::Work {
     balls.distance.resize(count);
     balls.beyond.resize(count);
     const double *x = balls.x.data(), *y = balls.y.data(), *z = balls.z.data();
-    search::measure(x, y, z, count, search::place(box.center()), balls.distance.data());
+    search::measure(x, y, z, count, search::plain(box.center()), balls.distance.data());
     std::size_t least = 0;
     for (std::size_t i = 1; i < count; ++i)
       if (balls.distance[i] + balls.radius[i] < balls.distance[least] + balls.radius[least]) least = i;
-    const search::Reference to{search::place(0.5 * box.sizes()),
+    const search::Reference to{search::plain(0.5 * box.sizes()),
                                {x[least], y[least], z[least]},
                                balls.distance[least],
                                balls.radius[least] + slack,
@@ -102,7 +102,7 @@ struct ProjectionBatch<P>::Work {
       if (balls.beyond[i] != 0) continue;
       const Capsule& c = tree.of(around[i]);
       near.push_back(around[i]);
-      segments.push_back({search::place(c.start), search::place(c.axis), c.inverse_length2, c.radius});
+      segments.push_back({search::plain(c.start), search::plain(c.axis), c.inverse_length2, c.radius});
     }
   }
 

@@ -128,11 +128,11 @@ struct alignas(64) CurveLanes {
 };
 
 template <int P>
-TENDRIL_INLINE Place combine(const CurveLanes<P>& lanes, std::size_t i, const basis::Row& weight) {
+TENDRIL_INLINE V3 combine(const CurveLanes<P>& lanes, std::size_t i, const basis::Row& weight) {
   const auto point = [&](auto k) __attribute__((always_inline)) {
-    return Place{lanes.x[k][i], lanes.y[k][i], lanes.z[k][i]};
+    return V3{lanes.x[k][i], lanes.y[k][i], lanes.z[k][i]};
   };
-  Place sum = weight[0] * point(std::integral_constant<std::size_t, 0>{});
+  V3 sum = weight[0] * point(std::integral_constant<std::size_t, 0>{});
   each<P>([&](auto k) __attribute__((always_inline)) {
     sum = sum + weight[k + 1] * point(std::integral_constant<std::size_t, k + 1>{});
   });
@@ -149,11 +149,11 @@ TENDRIL_LANES void describe(CurveLanes<P>& lanes, std::size_t count) {
     basis::Rows rows;
     rows[0] = basis::Row{1.0};
     basis::fill_values<P>(rows, knot, lanes.t[i]);
-    const Place c = combine<P>(lanes, i, rows[P]);
-    const Place d1 = combine<P>(lanes, i, basis::differentiate<P, P - 1>(rows[P - 1], knot));
-    Place d2{0.0, 0.0, 0.0};
+    const V3 c = combine<P>(lanes, i, rows[P]);
+    const V3 d1 = combine<P>(lanes, i, basis::differentiate<P, P - 1>(rows[P - 1], knot));
+    V3 d2{0.0, 0.0, 0.0};
     if constexpr (P >= 2) d2 = combine<P>(lanes, i, basis::differentiate<P, P - 2>(rows[P - 2], knot));
-    const Place offset = c - Place{lanes.px[i], lanes.py[i], lanes.pz[i]};
+    const V3 offset = c - V3{lanes.px[i], lanes.py[i], lanes.pz[i]};
     lanes.cx[i] = c.x;
     lanes.cy[i] = c.y;
     lanes.cz[i] = c.z;

@@ -2,40 +2,13 @@
 
 #include <cmath>
 
-#include "base/vector_loops.h"
+#include "base/plain_vector.h"
 
 /// What the vector loops of this module compute with. Those with fused multiply-adds use them, so that the
 /// last bits can differ between machines, and between the same rod alone and among others (a loop's last few
 /// numbers are no vector, and fuse in another order). The same scene gives the same bits on one machine,
 /// wherever its numbers lie in memory.
 namespace tendril::lanes {
-
-/// Three numbers in registers. Eigen's vectors would keep loops from being vectorised.
-struct V3 {
-  double x, y, z;
-};
-
-TENDRIL_INLINE V3 operator+(const V3& a, const V3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-TENDRIL_INLINE V3 operator-(const V3& a, const V3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-TENDRIL_INLINE V3 operator*(double s, const V3& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-TENDRIL_INLINE double dot(const V3& a, const V3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-TENDRIL_INLINE V3 cross(const V3& a, const V3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-TENDRIL_INLINE double larger(double a, double b) {
-  return a > b ? a : b;
-}
-TENDRIL_INLINE double smaller(double a, double b) {
-  return a < b ? a : b;
-}
 
 /// Nearest whole number, for |x| < 2^51 and rounding to nearest.
 TENDRIL_INLINE double nearest_whole(double x) {
