@@ -35,9 +35,7 @@ void divide(const search::Piece<P>& piece, int times, std::vector<search::Piece<
 
 /// How often to halve: more parts are settled at once, and are more to choose from. By the mean over the
 /// spans of how far the control points lie from the chord, in chords.
-template <int P>
-int halvings(const BSpline& curve) {
-  const std::vector<BezierPiece> pieces = curve.bezier_pieces();
+inline int halvings(const std::vector<BezierPiece>& pieces) {
   double bend = 0.0;
   for (const BezierPiece& piece : pieces) {
     const Capsule capsule = around(piece.points);
@@ -45,14 +43,15 @@ int halvings(const BSpline& curve) {
     bend += capsule.radius < chord ? capsule.radius / chord : 1.0;
   }
   bend /= static_cast<double>(pieces.size());
-  return P == 1 ? 0 : bend > 0.2 ? 2 : bend > 0.14 ? 1 : 0;
+  return bend > 0.2 ? 2 : bend > 0.14 ? 1 : 0;
 }
 
 template <int P>
 std::vector<search::Piece<P>> sub_pieces(const BSpline& curve) {
   std::vector<search::Piece<P>> pieces;
-  const int times = halvings<P>(curve);
-  for (const BezierPiece& bezier : curve.bezier_pieces()) {
+  const std::vector<BezierPiece> whole = curve.bezier_pieces();
+  const int times = P == 1 ? 0 : halvings(whole);
+  for (const BezierPiece& bezier : whole) {
     search::Piece<P> piece{{}, bezier.begin, bezier.end};
     std::copy(bezier.points.begin(), bezier.points.end(), piece.points.begin());
     divide<P>(piece, times, pieces);
