@@ -101,9 +101,7 @@ double microseconds(F&& f) {
 void judge_batch(const CurveProjector& projector, std::vector<Vec3>& points, std::vector<Projection>& alone,
                  Tally& tally) {
   const std::vector<Projection> many = projector.nearest(points);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    tally.other_in_batch += !(many[i].t == alone[i].t && many[i].distance == alone[i].distance &&
-                              many[i].gap == alone[i].gap && many[i].kind == alone[i].kind);
+  for (std::size_t i = 0; i < points.size(); ++i) tally.other_in_batch += !test::same(many[i], alone[i]);
   points.clear();
   alone.clear();
 }

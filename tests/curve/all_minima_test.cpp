@@ -73,16 +73,18 @@ TEST(AllMinima, HaveAStrengthThatIsContinuous) {
                        {{0, 0, 0}, {1, 0.2, 0}, {2, 0, 0}, {2.2, 1, 0}, {2, 2, 0}});
   const CurveProjector projector(corner);
   for (const double knot : {0.0, 1.0, 2.0}) {
-    // So far that the distances differ by more than rounding.
-    for (const double inward : {-1e-7, 1e-7}) {
-      const double inside = knot == 1.0 ? knot + inward : knot + (knot == 0.0 ? 1e-7 : -1e-7);
+    for (const double inward : {-1e-9, 1e-9, -1e-7, 1e-7}) {
+      const double depth = std::abs(inward);
+      const double inside = knot == 1.0 ? knot + inward : knot + (knot == 0.0 ? depth : -depth);
       const Vec3 d1 = corner.derivative(inside);
       const Vec3 normal = Vec3(d1.y(), -d1.x(), 0).normalized();
       const double side = knot == 1.0 ? 1.0 : -1.0;
       const Vec3 p = corner.value(inside) + side * 0.3 * normal;
       const Vec3 outward = (knot == 0.0 || (knot == 1.0 && inward > 0) ? -1.0 : 1.0) * d1.normalized();
-      const auto here = projector.all(p, 0.0), beyond = projector.all(p + 1e-6 * outward, 0.0);
-      EXPECT_EQ(here.front().kind, ProjectionKind::interior);
+      const auto here = projector.all(p, 0.0),
+                 beyond = projector.all(p + std::max(1e-7, 10.0 * depth) * outward, 0.0);
+      // Nearer to the knot the distances to the place and to the knot are the same number.
+      if (depth > 1e-8) EXPECT_EQ(here.front().kind, ProjectionKind::interior);
       EXPECT_NE(beyond.front().kind, ProjectionKind::interior);
       EXPECT_NEAR(here.front().strength, beyond.front().strength, 1e-5) << knot;
       EXPECT_GT(here.front().strength, 0.5);

@@ -16,6 +16,7 @@ using test::CertifiedDistance;
 using test::HardPoints;
 using test::NamedCurve;
 using test::Random;
+using test::same;
 
 constexpr int kCurves = 62;
 constexpr int kPoints = TENDRIL_SWEEP_POINTS / kCurves + 1;
@@ -24,11 +25,6 @@ struct Tally {
   long points = 0, wrong = 0, undecided = 0, far_from_curve = 0, other_alone = 0;
   double gap = 0.0;  // greatest, in sizes
 };
-
-bool same(const Projection& a, const Projection& b) {
-  return a.t == b.t && a.point == b.point && a.distance == b.distance && a.kind == b.kind &&
-         a.lambda == b.lambda && a.gap == b.gap;
-}
 
 /// The gap is taken at its word, but for the rounding of the proof. \param extent  of the curve
 void judge(const BSpline& curve, const CertifiedDistance& certified, double extent, const Vec3& p,

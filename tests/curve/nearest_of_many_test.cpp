@@ -20,12 +20,8 @@ void expect_as_alone(const CurveProjector& projector, const std::vector<Vec3>& p
   const std::vector<Projection> many = projector.nearest(points);
   ASSERT_EQ(many.size(), points.size());
   int different = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Projection alone = projector.nearest(points[i]);
-    different +=
-        !(many[i].t == alone.t && many[i].point == alone.point && many[i].kind == alone.kind &&
-          many[i].distance == alone.distance && many[i].lambda == alone.lambda && many[i].gap == alone.gap);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    different += !test::same(many[i], projector.nearest(points[i]));
   EXPECT_EQ(different, 0) << what << ", of " << points.size();
 }
 

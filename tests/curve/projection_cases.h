@@ -83,6 +83,12 @@ inline std::vector<NamedCurve> projection_curves() {
           {"degree 5 with corners", quintic_with_corners()}};
 }
 
+/// To the last bit.
+inline bool same(const Projection& a, const Projection& b) {
+  return a.t == b.t && a.point == b.point && a.distance == b.distance && a.kind == b.kind &&
+         a.lambda == b.lambda && a.gap == b.gap;
+}
+
 /// Diagonal of the control points' bounding box.
 inline double diagonal(const BSpline& curve) {
   Vec3 low = curve.control_points().front(), high = low;
