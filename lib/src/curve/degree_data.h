@@ -87,9 +87,7 @@ struct DataOfDegree final : CurveProjector::Data {
     return {search.t(), search.least()};
   }
 
-  std::unique_ptr<Batch> batch() const override {
-    return std::make_unique<ProjectionBatch<P>>(*this, pieces, tree);
-  }
+  std::unique_ptr<Batch> batch() const override { return make_batch<P>(*this, pieces, tree); }
 
   std::size_t piece_at(double t) const {
     const auto after =

@@ -4,22 +4,23 @@
 
 namespace tendril::search {
 
-TENDRIL_LANES void measure(GroupLanes& group, const Segment& segment, double number, double* square) {
+TENDRIL_LANES void measure_piece(GroupLanes& group, const NearPiece& piece, double number, double* square) {
   TENDRIL_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const V3 q = V3{group.x[i], group.y[i], group.z[i]} - segment.start;
-    const double s = dot(q, segment.axis) * segment.inverse_length2;
-    const V3 off = q - smaller(larger(s, 0.0), 1.0) * segment.axis;
+    const V3 q = V3{group.x[i], group.y[i], group.z[i]} - piece.start;
+    const double s = dot(q, piece.axis) * piece.inverse_length2;
+    const V3 off = q - smaller(larger(s, 0.0), 1.0) * piece.axis;
     const double d = dot(off, off);
     square[i] = d;
     const bool nearer = d < group.square[i];
     group.square[i] = nearer ? d : group.square[i];
-    group.radius[i] = nearer ? segment.radius : group.radius[i];
+    group.radius[i] = nearer ? piece.radius : group.radius[i];
     group.nearest[i] = nearer ? number : group.nearest[i];
   }
 }
 
-TENDRIL_LANES void mark(const GroupLanes& group, double radius, const double* square, unsigned char* near) {
+TENDRIL_LANES void mark_near(const GroupLanes& group, double radius, const double* square,
+                             unsigned char* near) {
   TENDRIL_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double reach = group.cut[i] + radius;
@@ -27,15 +28,21 @@ TENDRIL_LANES void mark(const GroupLanes& group, double radius, const double* sq
   }
 }
 
-TENDRIL_LANES void measure(const double* x, const double* y, const double* z, std::size_t count, const V3& c,
-                           double* distance) {
+TENDRIL_LANES void measure_balls(Balls& balls, const V3& c) {
+  const std::size_t count = balls.size();
+  balls.distance.resize(count);
+  const double* __restrict x = balls.x.data(), * __restrict y = balls.y.data(), * __restrict z = balls.z.data();
+  double* __restrict distance = balls.distance.data();
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) distance[i] = norm(V3{x[i], y[i], z[i]} - c);
 }
 
-TENDRIL_LANES void bisect(const double* x, const double* y, const double* z, const double* radius,
-                          const double* distance, std::size_t count, const Reference& to,
-                          unsigned char* beyond) {
+TENDRIL_LANES void mark_beyond(Balls& balls, const Reference& to) {
+  const std::size_t count = balls.size();
+  balls.beyond.resize(count);
+  const double *__restrict x = balls.x.data(), *__restrict y = balls.y.data(), *__restrict z = balls.z.data(),
+               *__restrict radius = balls.radius.data(), *__restrict distance = balls.distance.data();
+  unsigned char* __restrict beyond = balls.beyond.data();
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) {
     const V3 apart = V3{x[i], y[i], z[i]} - to.centre;

@@ -39,116 +39,19 @@ struct Best {
   }
 };
 
-}  // namespace
-
 template <int P>
-struct ProjectionBatch<P>::Work {
-  const CurveProjector::Data& data;
-  const std::vector<search::Piece<P>>& pieces;
-  const CapsuleTree& tree;
-  const std::vector<int> spans = data.curve.knots().nonempty_spans();
-  const std::size_t parts = pieces.size() / spans.size();
-
-  search::GroupLanes group{};
-  std::array<Best, kLanes> best{};
-  std::vector<std::size_t> around, near;  // pieces of some groups, of one
-  search::Balls balls;                    // of `around`
-  std::vector<search::Segment> segments;
-  std::vector<double> squares;  // kLanes of every segment
-
-  search::PieceLanes<P> items{};  // a piece seen from a point each
-  std::array<std::size_t, kLanes> lane_of{}, piece_of{};
-  std::size_t waiting = 0;
-
-  Work(const CurveProjector::Data& d, const std::vector<search::Piece<P>>& p, const CapsuleTree& t)
-      : data(d), pieces(p), tree(t) {}
-
-  /// Pieces that may be nearest to a point of the box; false when they are too many.
-  bool gather(const Eigen::AlignedBox3d& box, double slack) {
-    const Vec3 centre = box.center();
-    const double across = box.diagonal().norm();
-    around.clear();
-    balls.clear();
-    double upper = kNone;
-    tree.descend(
-        centre, [&] { return around.size() < kMostPieces ? upper + across + slack : -1.0; },
-        [&](std::size_t piece) {
-          upper = std::min(upper, std::sqrt(tree.of(piece).square(centre)) + tree.of(piece).radius);
-          around.push_back(piece);
-          balls.add(tree.of(piece));
-        });
-    return around.size() < kMostPieces;
-  }
-
-  /// Those that may be nearest to a point of a box within that box.
-  void select(const Eigen::AlignedBox3d& box, double slack) {
-    const std::size_t count = around.size();
-    balls.distance.resize(count);
-    balls.beyond.resize(count);
-    const double *x = balls.x.data(), *y = balls.y.data(), *z = balls.z.data();
-    search::measure(x, y, z, count, search::plain(box.center()), balls.distance.data());
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < count; ++i)
-      if (balls.distance[i] + balls.radius[i] < balls.distance[least] + balls.radius[least]) least = i;
-    const search::Reference to{search::plain(0.5 * box.sizes()),
-                               {x[least], y[least], z[least]},
-                               balls.distance[least],
-                               balls.radius[least] + slack,
-                               box.diagonal().norm()};
-    search::bisect(x, y, z, balls.radius.data(), balls.distance.data(), count, to, balls.beyond.data());
-    near.clear();
-    segments.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (balls.beyond[i] != 0) continue;
-      const Capsule& c = tree.of(around[i]);
-      near.push_back(around[i]);
-      segments.push_back({search::plain(c.start), search::plain(c.axis), c.inverse_length2, c.radius});
-    }
-  }
-
-  void push(std::size_t lane, std::size_t piece) {
-    const search::Control<P> r = search::relative<P>(pieces[piece], point(lane));
-    for (std::size_t k = 0; k <= P; ++k) {
-      items.x[k][waiting] = r[k].x;
-      items.y[k][waiting] = r[k].y;
-      items.z[k][waiting] = r[k].z;
-    }
-    items.cut[waiting] = best[lane].cut;
-    lane_of[waiting] = lane;
-    piece_of[waiting] = piece;
-    if (++waiting == kLanes) flush();
-  }
-
-  void flush() {
-    if (waiting == 0) return;
-    const std::size_t count = waiting;
-    waiting = 0;
-    search::settle<P>(items, (count + 7) / 8 * 8);
-    for (std::size_t i = 0; i < count; ++i) take(best[lane_of[i]], piece_of[i], i);
-  }
-
-  void take(Best& to, std::size_t piece, std::size_t i) const {
-    if (items.fate[i] == search::fate::dropped) return;
-    to.lower(items.upper[i]);
-    if (items.fate[i] == search::fate::open || !proven(i)) {
-      to.open = true;
-      return;
-    }
-    to.least = std::min(to.least, items.least[i] - to.blur);
-    to.candidate(pieces[piece].parameter(items.s[i]), items.distance[i], piece);
-  }
-
-  /// Whether the search of one point would settle the root.
-  bool proven(std::size_t i) const {
-    const double gap = items.distance[i] - items.least[i];
-    return items.fate[i] != search::fate::root || gap <= data.bounds_for(data.diagonal).proof ||
-           gap <= data.bounds(point(lane_of[i])).proof;
-  }
-
-  Vec3 point(std::size_t lane) const { return {group.x[lane], group.y[lane], group.z[lane]}; }
+class ProjectionBatch final : public CurveProjector::Data::Batch {
+ public:
+  ProjectionBatch(const CurveProjector::Data& data, const std::vector<search::Piece<P>>& pieces,
+                  const CapsuleTree& tree)
+      : data_(data),
+        pieces_(pieces),
+        tree_(tree),
+        spans_(data.curve.knots().nonempty_spans()),
+        parts_(pieces.size() / spans_.size()) {}
 
   /// Group by group, after one way down the tree for all.
-  void find(Points points, std::span<const std::uint32_t> which, std::span<Found> found) {
+  void find(Points points, std::span<const std::uint32_t> which, std::span<Found> found) override {
     const Eigen::AlignedBox3d whole = box_of(points, which);
     const bool all = which.size() > kLanes && gather(whole, bounds_of(whole).slack);
     for (std::size_t begin = 0; begin < which.size(); begin += kLanes) {
@@ -162,11 +65,90 @@ struct ProjectionBatch<P>::Work {
         settle(group_of.size());
       }
       for (std::size_t i = 0; i < group_of.size(); ++i)
-        found[group_of[i]] = fits && best[i].settled()
-                                 ? Found{best[i].t, best[i].least, spans[best[i].piece / parts]}
+        found[group_of[i]] = fits && best_[i].settled()
+                                 ? Found{best_[i].t, best_[i].least, spans_[best_[i].piece / parts_]}
                                  : alone(i);
     }
   }
+
+ private:
+  /// Pieces that may be nearest to a point of the box; false when they are too many.
+  bool gather(const Eigen::AlignedBox3d& box, double slack) {
+    const Vec3 centre = box.center();
+    const double across = box.diagonal().norm();
+    around_.clear();
+    balls_.clear();
+    double upper = kNone;
+    tree_.descend(
+        centre, [&] { return around_.size() < kMostPieces ? upper + across + slack : -1.0; },
+        [&](std::size_t piece) {
+          upper = std::min(upper, std::sqrt(tree_.of(piece).square(centre)) + tree_.of(piece).radius);
+          around_.push_back(piece);
+          balls_.add(tree_.of(piece));
+        });
+    return around_.size() < kMostPieces;
+  }
+
+  /// Those that may be nearest to a point of a box within that box.
+  void select(const Eigen::AlignedBox3d& box, double slack) {
+    search::measure_balls(balls_, search::plain(box.center()));
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < balls_.size(); ++i)
+      if (balls_.distance[i] + balls_.radius[i] < balls_.distance[least] + balls_.radius[least]) least = i;
+    search::mark_beyond(balls_, {search::plain(0.5 * box.sizes()),
+                                 {balls_.x[least], balls_.y[least], balls_.z[least]},
+                                 balls_.distance[least],
+                                 balls_.radius[least] + slack,
+                                 box.diagonal().norm()});
+    near_.clear();
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      if (balls_.beyond[i] != 0) continue;
+      const Capsule& c = tree_.of(around_[i]);
+      near_.push_back(
+          {around_[i], search::plain(c.start), search::plain(c.axis), c.inverse_length2, c.radius});
+    }
+  }
+
+  void push(std::size_t lane, std::size_t piece) {
+    const search::Control<P> r = search::relative<P>(pieces_[piece], point(lane));
+    for (std::size_t k = 0; k <= P; ++k) {
+      items_.x[k][waiting_] = r[k].x;
+      items_.y[k][waiting_] = r[k].y;
+      items_.z[k][waiting_] = r[k].z;
+    }
+    items_.cut[waiting_] = best_[lane].cut;
+    lane_of_[waiting_] = lane;
+    piece_of_[waiting_] = piece;
+    if (++waiting_ == kLanes) flush();
+  }
+
+  void flush() {
+    if (waiting_ == 0) return;
+    const std::size_t count = waiting_;
+    waiting_ = 0;
+    search::settle<P>(items_, (count + 7) / 8 * 8);
+    for (std::size_t i = 0; i < count; ++i) take(best_[lane_of_[i]], piece_of_[i], i);
+  }
+
+  void take(Best& to, std::size_t piece, std::size_t i) const {
+    if (items_.fate[i] == search::fate::dropped) return;
+    to.lower(items_.upper[i]);
+    if (items_.fate[i] == search::fate::open || !proven(i)) {
+      to.open = true;
+      return;
+    }
+    to.least = std::min(to.least, items_.least[i] - to.blur);
+    to.candidate(pieces_[piece].parameter(items_.s[i]), items_.distance[i], piece);
+  }
+
+  /// Whether the search of one point would settle the root.
+  bool proven(std::size_t i) const {
+    const double gap = items_.distance[i] - items_.least[i];
+    return items_.fate[i] != search::fate::root || gap <= data_.bounds_for(data_.diagonal).proof ||
+           gap <= data_.bounds(point(lane_of_[i])).proof;
+  }
+
+  Vec3 point(std::size_t lane) const { return {group_.x[lane], group_.y[lane], group_.z[lane]}; }
 
   static Eigen::AlignedBox3d box_of(Points points, std::span<const std::uint32_t> which) {
     Eigen::AlignedBox3d box;
@@ -176,72 +158,88 @@ struct ProjectionBatch<P>::Work {
 
   /// Not below that of any point of the box.
   search::Bounds bounds_of(const Eigen::AlignedBox3d& box) const {
-    return data.bounds_for(data.size(box.center()) + box.diagonal().norm());
+    return data_.bounds_for(data_.size(box.center()) + box.diagonal().norm());
   }
 
   void fill(Points points, std::span<const std::uint32_t> which, const search::Bounds& bounds) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       const Vec3& p = points[which[std::min(i, which.size() - 1)]];
-      group.x[i] = p.x();
-      group.y[i] = p.y();
-      group.z[i] = p.z();
-      group.square[i] = kNone;
-      best[i] = {bounds.slack, bounds.blur};
+      group_.x[i] = p.x();
+      group_.y[i] = p.y();
+      group_.z[i] = p.z();
+      group_.square[i] = kNone;
+      best_[i] = {bounds.slack, bounds.blur};
     }
   }
 
   Found alone(std::size_t lane) const {
-    const double t = best[lane].t;
-    return data.find(point(lane), data.bounds(point(lane)), t < kNone ? t : kNaN);
+    const double t = best_[lane].t;
+    return data_.find(point(lane), data_.bounds(point(lane)), t < kNone ? t : kNaN);
   }
 
   void settle(std::size_t count) {
-    squares.resize(kLanes * near.size());
-    for (std::size_t k = 0; k < near.size(); ++k)
-      search::measure(group, segments[k], static_cast<double>(k), squares.data() + kLanes * k);
+    squares_.resize(kLanes * near_.size());
+    for (std::size_t k = 0; k < near_.size(); ++k)
+      search::measure_piece(group_, near_[k], static_cast<double>(k), squares_.data() + kLanes * k);
     for (std::size_t i = 0; i < kLanes; ++i) {
       // Squares that overflow are left to the search of one point.
-      if (i >= count || !(group.square[i] < kNone)) continue;
-      best[i].lower(std::sqrt(group.square[i]) + group.radius[i]);
-      push(i, near[static_cast<std::size_t>(group.nearest[i])]);
+      if (i >= count || !(group_.square[i] < kNone)) continue;
+      best_[i].lower(std::sqrt(group_.square[i]) + group_.radius[i]);
+      push(i, near_[static_cast<std::size_t>(group_.nearest[i])].piece);
     }
     flush();
     for (std::size_t i = 0; i < kLanes; ++i)
-      group.cut[i] = i < count && best[i].cut < kNone ? best[i].cut : kNaN;
-    for (std::size_t k = 0; k < near.size(); ++k) push_near(k);
+      group_.cut[i] = i < count && best_[i].cut < kNone ? best_[i].cut : kNaN;
+    for (std::size_t k = 0; k < near_.size(); ++k) push_near(k);
     flush();
   }
 
   /// A piece for all points that it is not too far from and that have not begun with it.
   void push_near(std::size_t k) {
     std::array<unsigned char, kLanes> marks;
-    search::mark(group, segments[k].radius, squares.data() + kLanes * k, marks.data());
+    search::mark_near(group_, near_[k].radius, squares_.data() + kLanes * k, marks.data());
     for (std::size_t begin = 0; begin < kLanes; begin += 8) {
       std::uint64_t eight;
       std::memcpy(&eight, marks.data() + begin, 8);
       for (std::size_t i = begin; eight != 0 && i < begin + 8; ++i)
-        if (marks[i] != 0 && group.nearest[i] != static_cast<double>(k)) push(i, near[k]);
+        if (marks[i] != 0 && group_.nearest[i] != static_cast<double>(k)) push(i, near_[k].piece);
     }
   }
+
+  const CurveProjector::Data& data_;
+  const std::vector<search::Piece<P>>& pieces_;
+  const CapsuleTree& tree_;
+  const std::vector<int> spans_;  // with their pieces
+  const std::size_t parts_;       // of a span
+
+  search::GroupLanes group_{};
+  std::array<Best, kLanes> best_{};
+  std::vector<std::size_t> around_;      // pieces for some groups to choose from
+  search::Balls balls_;                  // around those
+  std::vector<search::NearPiece> near_;  // what one group has chosen
+  std::vector<double> squares_;          // kLanes of each of these
+
+  search::PieceLanes<P> items_{};  // a piece seen from a point each
+  std::array<std::size_t, kLanes> lane_of_{}, piece_of_{};
+  std::size_t waiting_ = 0;
 };
 
-template <int P>
-ProjectionBatch<P>::ProjectionBatch(const CurveProjector::Data& data,
-                                    const std::vector<search::Piece<P>>& pieces, const CapsuleTree& tree)
-    : work_(new Work(data, pieces, tree)) {}
+}  // namespace
 
 template <int P>
-ProjectionBatch<P>::~ProjectionBatch() = default;
-
-template <int P>
-void ProjectionBatch<P>::find(Points points, std::span<const std::uint32_t> which, std::span<Found> found) {
-  work_->find(points, which, found);
+std::unique_ptr<CurveProjector::Data::Batch> make_batch(const CurveProjector::Data& data,
+                                                        const std::vector<search::Piece<P>>& pieces,
+                                                        const CapsuleTree& tree) {
+  return std::make_unique<ProjectionBatch<P>>(data, pieces, tree);
 }
 
-template class ProjectionBatch<1>;
-template class ProjectionBatch<2>;
-template class ProjectionBatch<3>;
-template class ProjectionBatch<4>;
-template class ProjectionBatch<5>;
+using Batch = std::unique_ptr<CurveProjector::Data::Batch>;
+template <int P>
+using Pieces = std::vector<search::Piece<P>>;
+template Batch make_batch(const CurveProjector::Data&, const Pieces<1>&, const CapsuleTree&);
+template Batch make_batch(const CurveProjector::Data&, const Pieces<2>&, const CapsuleTree&);
+template Batch make_batch(const CurveProjector::Data&, const Pieces<3>&, const CapsuleTree&);
+template Batch make_batch(const CurveProjector::Data&, const Pieces<4>&, const CapsuleTree&);
+template Batch make_batch(const CurveProjector::Data&, const Pieces<5>&, const CapsuleTree&);
 
 }  // namespace tendril

@@ -16,20 +16,11 @@ namespace tendril {
 /// this in vector lanes, and by the arithmetic of the search of one point. What lanes do not settle (a piece
 /// that must be halved, a tie, pieces too many) goes to that search. The outcome is the same, for it does not
 /// depend on the bound a search starts from.
+///
+/// All that is handed over must outlive it.
 template <int P>
-class ProjectionBatch final : public CurveProjector::Data::Batch {
- public:
-  /// All must outlive it.
-  ProjectionBatch(const CurveProjector::Data& data, const std::vector<search::Piece<P>>& pieces,
-                  const CapsuleTree& tree);
-  ~ProjectionBatch() override;
-
-  void find(Points points, std::span<const std::uint32_t> which,
-            std::span<CurveProjector::Data::Found> found) override;
-
- private:
-  struct Work;
-  std::unique_ptr<Work> work_;
-};
+std::unique_ptr<CurveProjector::Data::Batch> make_batch(const CurveProjector::Data& data,
+                                                        const std::vector<search::Piece<P>>& pieces,
+                                                        const CapsuleTree& tree);
 
 }  // namespace tendril
