@@ -198,9 +198,11 @@ void Search::find_scales() {
 void Search::find_lacks() {
   in_parts([&](std::size_t i) {
     lacks_[i] = 1.0;
-    if (!axis_.may_be_ambiguous(site(i))) return;
-    lists_[i] = candidates(site(i));
-    lacks_[i] = std::min(1.0, axis_.lack(site(i)));
+    Site here = site(i);
+    if (!axis_.may_be_ambiguous(here)) return;
+    lists_[i] = candidates(here);
+    here.all = lists_[i];
+    lacks_[i] = std::min(1.0, axis_.lack(here));
   });
   bound_growth(
       mesh_, neighbours_, [&](std::uint32_t i) -> double& { return lacks_[i]; },

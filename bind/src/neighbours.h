@@ -22,9 +22,12 @@ struct Neighbours {
 
 /// Lowers a function on the points of a mesh to the largest below it that grows along no edge by more than
 /// allowed, by Dijkstra's algorithm. The bound holds for every edge, so splitting the edges does not change
-/// it. \param value   of a point: a reference to the function there \param growth  of a point and a length:
-/// how much the function may grow over an edge so long that ends
-///                there; at least 0
+/// it.
+///
+/// \param value  of a point: a reference to the function there
+///
+/// \param growth  of a point and a length: by how much, at least 0, the function may grow over an edge so
+/// long that ends there
 template <class Value, class Growth>
 void bound_growth(const PolygonMesh& mesh, const Neighbours& neighbours, const Value& value,
                   const Growth& growth) {
