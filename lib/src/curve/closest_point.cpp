@@ -139,7 +139,7 @@ std::vector<Projection> CurveProjector::nearest(Points points) const {
   const auto batch = data_->batch();
   for (std::size_t begin = 0; begin < points.size(); begin += kTogether)
     batch->find(points, std::span(order).subspan(begin, std::min(kTogether, points.size() - begin)), found);
-  return describe_all(*data_, points, found);
+  return data_->describe(points, found);
 }
 
 std::vector<LocalMinimum> CurveProjector::all(const Vec3& p, double band) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capsule_tree.h"
+#include "describe.h"
 #include "projection_batch.h"
 #include "projector_data.h"
 
@@ -88,6 +89,10 @@ struct DataOfDegree final : CurveProjector::Data {
   }
 
   std::unique_ptr<Batch> batch() const override { return make_batch<P>(*this, pieces, tree); }
+
+  std::vector<Projection> describe(Points points, std::span<const Found> found) const override {
+    return describe_all<P>(*this, points, found);
+  }
 
   std::size_t piece_at(double t) const {
     const auto after =

@@ -82,20 +82,16 @@ class Describer {
 
 }  // namespace
 
+template <int P>
 std::vector<Projection> describe_all(const CurveProjector::Data& data, Points points,
                                      std::span<const Found> found) {
-  switch (data.curve.degree()) {
-    case 1:
-      return Describer<1>(data, points, found).run();
-    case 2:
-      return Describer<2>(data, points, found).run();
-    case 3:
-      return Describer<3>(data, points, found).run();
-    case 4:
-      return Describer<4>(data, points, found).run();
-    default:
-      return Describer<5>(data, points, found).run();
-  }
+  return Describer<P>(data, points, found).run();
 }
+
+template std::vector<Projection> describe_all<1>(const CurveProjector::Data&, Points, std::span<const Found>);
+template std::vector<Projection> describe_all<2>(const CurveProjector::Data&, Points, std::span<const Found>);
+template std::vector<Projection> describe_all<3>(const CurveProjector::Data&, Points, std::span<const Found>);
+template std::vector<Projection> describe_all<4>(const CurveProjector::Data&, Points, std::span<const Found>);
+template std::vector<Projection> describe_all<5>(const CurveProjector::Data&, Points, std::span<const Found>);
 
 }  // namespace tendril

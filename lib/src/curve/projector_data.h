@@ -37,6 +37,7 @@ struct CurveProjector::Data {
     virtual void find(Points points, std::span<const std::uint32_t> which, std::span<Found> found) = 0;
   };
   virtual std::unique_ptr<Batch> batch() const = 0;
+  virtual std::vector<Projection> describe(Points points, std::span<const Found> found) const = 0;
   /// \param hint  a parameter, NaN for none: its sub-piece is examined first
   virtual Found find(const Vec3& p, const search::Bounds& bounds, double hint) const = 0;
   /// Local minima up to the distance `cut`, in the order of t.
