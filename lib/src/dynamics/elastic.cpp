@@ -310,8 +310,8 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, Work
     if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
   }
   for (const std::size_t node : model.bending.held)
-    pull_on_held(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
-  for (const std::size_t node : model.bending.held_hinges) bend_held(model, node, work);
+    bend_at_held_frame(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
+  for (const std::size_t node : model.bending.held_hinges) bend_at_held_hinge(model, node, work);
   return {};
 }
 
@@ -329,8 +329,9 @@ Evaluation elastic_energy(const Model& model, const State& reference, Workspace&
     if (s.twist) gather_springs(model, s, work);
   }
   double none = 0.0;
-  for (const std::size_t node : model.bending.held) energy += pull_on_held(model, node, false, work, none);
-  for (const std::size_t node : model.bending.held_hinges) energy += bend_held(model, node, work);
+  for (const std::size_t node : model.bending.held)
+    energy += bend_at_held_frame(model, node, false, work, none);
+  for (const std::size_t node : model.bending.held_hinges) energy += bend_at_held_hinge(model, node, work);
   return {};
 }
 

@@ -87,7 +87,7 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Worksp
 
 }  // namespace
 
-double pull_on_held(const Model& model, std::size_t node, bool viscous, Workspace& work, double& heat) {
+double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, Workspace& work, double& heat) {
   const Held at{node, work.frame[node], viscous ? work.t_rate(node) : Vec3(Vec3::Zero()),
                 viscous ? work.spin[node] : 0.0, viscous};
   const auto pull = [&](std::size_t side, Columns3& to) {
@@ -104,7 +104,7 @@ double pull_on_held(const Model& model, std::size_t node, bool viscous, Workspac
   return energy;
 }
 
-double bend_held(const Model& model, std::size_t node, Workspace& work) {
+double bend_at_held_hinge(const Model& model, std::size_t node, Workspace& work) {
   const Vec3 t = work.frame.z[node];
   const double stiffness = model.bend_l[node] + model.bend_t[node];
   Vec3 g_tangent = Vec3::Zero();
