@@ -3,7 +3,7 @@
 #include <tendril/bind/binding.h>
 #include <tendril/bind/judge.h>
 
-#include "moments.h"
+#include "place/moments.h"
 #include "support/pairs.h"
 #include "support/random.h"
 

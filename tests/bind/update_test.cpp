@@ -4,7 +4,7 @@
 
 #include "support/pairs.h"
 #include "support/random.h"
-#include "sweep.h"
+#include "place/sweep.h"
 
 namespace tendril::bind {
 namespace {

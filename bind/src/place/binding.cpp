@@ -1,0 +1,185 @@
+#include <tendril/base/error.h>
+#include <tendril/bind/binding.h>
+
+#include <cmath>
+#include <string>
+
+#include "blend/branches.h"
+#include "layout.h"
+#include "mesh/parallel.h"
+
+namespace tendril::bind {
+namespace {
+
+constexpr double kLargest = 1e150;  // the projection squares coordinates
+constexpr double kInPlane = 3e-16;  // of the points' size: w of a normal projection is rounding, and left out
+
+void check(Points points, int threads) {
+  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
+  if (points.size() > 0x7fffffff)
+    throw InvalidInput("points", std::to_string(points.size()) + " of them", "fewer than 2^31");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!(points[i].cwiseAbs().maxCoeff() <= kLargest) || !is_finite(points[i]))
+      throw InvalidInput("points[" + std::to_string(i) + "]", "not finite, or beyond 1e150",
+                         "three finite numbers");
+}
+
+/// What is known of the nearest projections while a binding is made.
+struct Found {
+  std::vector<double> lambda, gap;
+
+  explicit Found(std::size_t points) : lambda(points), gap(points) {}
+  void set(std::size_t point, const Projection& nearest) {
+    lambda[point] = nearest.lambda;
+    gap[point] = nearest.gap;
+  }
+};
+
+void project(const CurvePair& rest, Points points, int threads, Binding::Layout& layout, Found& found) {
+  const CurveProjector projector(rest.primary());
+  layout.entries.resize(points.size());
+  in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    const std::vector<Projection> nearest = projector.nearest(points.subspan(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      found.set(i, nearest[i - begin]);
+      layout.entries[i] = to_axial(rest, nearest[i - begin].t, points[i]);
+    }
+  });
+}
+
+/// Room for the places in use of every point.
+void lay_out(const Branches& branches, bool with_pairs, Binding::Layout& layout) {
+  for (std::uint32_t i = 0; i < layout.size; ++i) {
+    const std::size_t others = branches.influences[i].size();
+    if (others == 0) continue;
+    const std::size_t begin = layout.owner.size();
+    if (layout.size + begin + others > 0x7fffffff)
+      throw InvalidInput("points", "too many influences", "fewer than 2^31");
+    layout.owner.resize(begin + others, i);
+    layout.blends.push_back(
+        {i, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + others)});
+  }
+  layout.share.resize(layout.owner.size());
+  layout.entries.resize(layout.size + layout.owner.size());
+  if (with_pairs) layout.pair.resize(layout.entries.size());
+}
+
+void share(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options,
+           Binding::Layout& layout, Found& found, BindReport& report) {
+  std::vector<CurveProjector> projectors;
+  for (const CurvePair& pair : rest) projectors.emplace_back(pair.primary());
+  Branches branches = find_branches(projectors, mesh, options.band, options.threads);
+  if (options.mode == BindMode::nearest)
+    for (auto& influences : branches.influences) influences.clear();
+  lay_out(branches, rest.size() > 1, layout);
+  const auto enter = [&](std::size_t entry, std::uint32_t pair, double t, std::size_t point) {
+    if (!layout.pair.empty()) layout.pair[entry] = pair;
+    layout.entries[entry] = to_axial(rest[pair], t, mesh.points[point]);
+  };
+  in_parts(layout.size, options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Candidate& nearest = branches.nearest[i];
+      found.set(i, nearest.at);
+      enter(i, nearest.pair, nearest.at.t, i);
+    }
+  });
+  in_parts(layout.blends.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto& blend = layout.blends[b];
+      for (std::size_t k = blend.begin; k < blend.end; ++k) {
+        const Influence& one = branches.influences[blend.point][k - blend.begin];
+        enter(layout.size + k, one.pair, one.t, blend.point);
+        layout.share[k] = one.weight;
+      }
+    }
+  });
+  report.ambiguous = std::move(branches.ambiguous);
+  report.gated = std::move(branches.gated);
+  report.clusters = branches.clusters;
+}
+
+void inspect(std::span<const CurvePair> rest, Points points, int threads, const Binding& binding,
+             const Found& found, BindReport& report) {
+  std::vector<Vec3> again(points.size());
+  binding.update(rest, again, threads);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto id = static_cast<std::uint32_t>(i);
+    const double t = binding.records()[i].t;
+    const CurvePair& pair = rest[binding.pair_of(i)];
+    report.rest_error = std::max(report.rest_error, (again[i] - points[i]).norm());
+    report.largest_gap = std::max(report.largest_gap, found.gap[i]);
+    const bool at_end = t == pair.knots().start() || t == pair.knots().end();
+    if (at_end) ++report.beyond_ends;
+    if (!at_end && found.lambda[i] <= 0.0) report.past_focus.push_back(id);
+    if (pair.frame(t).status != FrameStatus::ok) report.degenerate.push_back(id);
+  }
+  report.places = binding.layout().entries.size();
+}
+
+}  // namespace
+
+Binding::Binding(const CurvePair& rest, Points points, int threads) {
+  check(points, threads);
+  auto layout = std::make_shared<Layout>();
+  Found found(points.size());
+  layout->size = points.size();
+  layout->knots.push_back(rest.knots());
+  project(rest, points, threads, *layout, found);
+  layout->arrange(kInPlane * bounding_diagonal(points));
+  layout_ = std::move(layout);
+  inspect({&rest, 1}, points, threads, *this, found, report_);
+}
+
+Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options) {
+  check(mesh.points, options.threads);
+  require_valid(mesh);
+  if (rest.empty()) throw InvalidInput("rest", "no curve-pair", "at least one");
+  if (!(options.band > 0.0 && options.band <= 1.0))
+    throw InvalidInput("band", std::to_string(options.band), "above 0, at most 1");
+  auto layout = std::make_shared<Layout>();
+  Found found(mesh.points.size());
+  layout->size = mesh.points.size();
+  for (const CurvePair& pair : rest) layout->knots.push_back(pair.knots());
+  if (rest.size() == 1 && options.mode == BindMode::nearest)
+    project(rest[0], mesh.points, options.threads, *layout, found);
+  else
+    share(rest, mesh, options, *layout, found, report_);
+  layout->arrange(kInPlane * bounding_diagonal(mesh.points));
+  layout_ = std::move(layout);
+  inspect(rest, mesh.points, options.threads, *this, found, report_);
+}
+
+std::size_t Binding::size() const {
+  return layout_->size;
+}
+
+std::size_t Binding::pair_count() const {
+  return layout_->knots.size();
+}
+
+std::span<const AxialPoint> Binding::records() const {
+  return {layout_->entries.data(), layout_->size};
+}
+
+std::uint32_t Binding::pair_of(std::size_t point) const {
+  return layout_->pair_of(point);
+}
+
+std::span<const std::uint32_t> Binding::order() const {
+  return layout_->nearest.entry;
+}
+
+std::vector<Share> Binding::shares(std::size_t point) const {
+  layout_->require_point(point);
+  std::vector<Share> result{{pair_of(point), 1.0, records()[point]}};
+  const Layout::Blend* blend = layout_->blend_of(point);
+  if (!blend) return result;
+  for (std::size_t k = blend->begin; k < blend->end; ++k) {
+    const std::size_t entry = layout_->size + k;
+    result.push_back({layout_->pair_of(entry), layout_->share[k], layout_->entries[entry]});
+    result.front().weight -= layout_->share[k];
+  }
+  return result;
+}
+
+}  // namespace tendril::bind

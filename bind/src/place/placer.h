@@ -1,0 +1,196 @@
+#pragma once
+
+#include "layout.h"
+#include "mesh/parallel.h"
+#include "sweep.h"
+
+namespace tendril::bind {
+
+/// Places the points of a binding on posed curve-pairs, in numbers of type T.
+template <class T>
+class Placer {
+ public:
+  using Numbers = Binding::Layout::Numbers<T>;
+  Placer(const Binding::Layout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
+      : layout_(layout), numbers_(numbers), posed_(posed) {
+    layout.require_same_knots(posed);
+  }
+
+  /// All points, each handed to write(slot, point) once (twice when it is blended, after which read(slot)
+  /// gives the first).
+  void update(const ColumnsView<T>& out, int threads) const;
+  template <class Row>
+  void update(Row* out, int threads) const;
+
+  /// The points named, in their order.
+  template <class Row>
+  void some(std::span<const std::uint32_t> points, Row* out) const;
+  Triple<T> one(std::size_t point) const;
+
+ private:
+  using Pieces = std::vector<Piece<T>>;
+  void place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
+             std::size_t end, const ColumnsView<T>& out) const;
+  void mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
+            const ColumnsView<T>& out) const;
+  Triple<T> place_by_rule(std::uint32_t entry) const;
+  template <class PieceOf>
+  Triple<T> place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
+                       std::size_t slot) const;
+  template <class PieceOf>
+  Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
+  template <class Access>
+  void blend(const Pieces& pieces, const Access& access, int threads) const;
+  template <class Other>
+  Triple<T> mix(const Binding::Layout::Blend& blend, const Triple<T>& base, const Other& other) const;
+
+  const Binding::Layout& layout_;
+  const Numbers& numbers_;
+  std::span<const CurvePair> posed_;
+};
+
+template <class T>
+Triple<T> Placer<T>::place_by_rule(std::uint32_t entry) const {
+  const Vec3 p = from_axial(posed_[layout_.pair_of(entry)], layout_.entries[entry]);
+  return {static_cast<T>(p.x()), static_cast<T>(p.y()), static_cast<T>(p.z())};
+}
+
+/// Where the loops found no frame, the curve-pair's own rules decide.
+template <class T>
+void Placer<T>::mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
+                     const ColumnsView<T>& out) const {
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    if (!place_one(piece, part.off, records.from(i)).fault) continue;
+    const Triple<T> p = place_by_rule(order.entry[i]);
+    out.x[i - part.begin] = p.x;
+    out.y[i - part.begin] = p.y;
+    out.z[i - part.begin] = p.z;
+  }
+}
+
+/// Slots [begin, end), the first of them to out[0].
+template <class T>
+void Placer<T>::place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
+                      std::size_t end, const ColumnsView<T>& out) const {
+  auto run = std::upper_bound(order.runs.begin(), order.runs.end(), begin,
+                              [](std::size_t at, const Run& r) { return at < r.end; });
+  for (; run != order.runs.end() && run->begin < end; ++run) {
+    const Run part{run->span, std::max(run->begin, static_cast<std::uint32_t>(begin)),
+                   std::min(run->end, static_cast<std::uint32_t>(end)), run->off};
+    const ColumnsView<T> to = out.from(part.begin - begin);
+    if (sweep(pieces[part.span], part.off, records.from(part.begin), to, part.end - part.begin))
+      mend(pieces[part.span], order, records, part, to);
+  }
+}
+
+template <class T>
+template <class PieceOf>
+Triple<T> Placer<T>::place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
+                                std::size_t slot) const {
+  const Run& run = order.run_of(slot);
+  const Placed<T> placed = place_one(piece_of(run.span), run.off, records.from(slot));
+  return placed.fault ? place_by_rule(order.entry[slot]) : placed.point;
+}
+
+/// The nearest projection's point and the weighted differences to it: at rest these vanish, whatever rounding
+/// the weights have.
+template <class T>
+template <class Other>
+Triple<T> Placer<T>::mix(const Binding::Layout::Blend& blend, const Triple<T>& base,
+                         const Other& other) const {
+  Triple<T> sum = base;
+  for (std::size_t k = blend.begin; k < blend.end; ++k)
+    sum = sum + static_cast<T>(layout_.share[k]) * (other(layout_.other_slot[k]) - base);
+  return sum;
+}
+
+template <class T>
+template <class PieceOf>
+Triple<T> Placer<T>::one(std::size_t point, const PieceOf& piece_of) const {
+  layout_.require_point(point);
+  const Triple<T> base = place_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
+  const Binding::Layout::Blend* blend = layout_.blend_of(point);
+  if (!blend) return base;
+  return mix(*blend, base,
+             [&](std::size_t slot) { return place_slot(piece_of, layout_.others, numbers_.others, slot); });
+}
+
+template <class T>
+Triple<T> Placer<T>::one(std::size_t point) const {
+  return one(point, [&](std::uint32_t span) {
+    return pose<T>(layout_.spans[span], posed_[layout_.spans[span].pair]);
+  });
+}
+
+template <class T>
+template <class Row>
+void Placer<T>::some(std::span<const std::uint32_t> points, Row* out) const {
+  const Pieces pieces = pose<T>(layout_.spans, posed_);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Triple<T> p = one(points[i], [&](std::uint32_t span) -> const Piece<T>& { return pieces[span]; });
+    out[i] = Row(p.x, p.y, p.z);
+  }
+}
+
+/// \param access  of a point and its slot: reads with one argument less than it writes
+template <class T>
+template <class Access>
+void Placer<T>::blend(const Pieces& pieces, const Access& access, int threads) const {
+  if (layout_.blends.empty()) return;
+  const std::size_t count = layout_.others.entry.size();
+  std::vector<T> x(count), y(count), z(count);
+  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
+    place(pieces, layout_.others, numbers_.others, begin, end,
+          {x.data() + begin, y.data() + begin, z.data() + begin});
+  });
+  in_parts(layout_.blends.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto& blend = layout_.blends[b];
+      access.write(blend.point, mix(blend, access.read(blend.point), [&](std::size_t slot) {
+                     return Triple<T>{x[slot], y[slot], z[slot]};
+                   }));
+    }
+  });
+}
+
+template <class T>
+void Placer<T>::update(const ColumnsView<T>& out, int threads) const {
+  const Pieces pieces = pose<T>(layout_.spans, posed_);
+  in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
+    place(pieces, layout_.nearest, numbers_.nearest, begin, end, out.from(begin));
+  });
+  struct Access {
+    const ColumnsView<T>& out;
+    const std::vector<std::uint32_t>& slot;
+    Triple<T> read(std::size_t i) const { return {out.x[slot[i]], out.y[slot[i]], out.z[slot[i]]}; }
+    void write(std::size_t i, const Triple<T>& p) const {
+      out.x[slot[i]] = p.x;
+      out.y[slot[i]] = p.y;
+      out.z[slot[i]] = p.z;
+    }
+  };
+  blend(pieces, Access{out, layout_.slot}, threads);
+}
+
+template <class T>
+template <class Row>
+void Placer<T>::update(Row* out, int threads) const {
+  constexpr std::size_t kBlock = 512;  // columns that stay in the fastest cache until they are rows
+  const Pieces pieces = pose<T>(layout_.spans, posed_);
+  in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
+    std::array<T, kBlock> x, y, z;
+    for (std::size_t at = begin; at < end; at += kBlock) {
+      const std::size_t count = std::min(kBlock, end - at);
+      place(pieces, layout_.nearest, numbers_.nearest, at, at + count, {x.data(), y.data(), z.data()});
+      for (std::size_t i = 0; i < count; ++i) out[layout_.nearest.entry[at + i]] = Row(x[i], y[i], z[i]);
+    }
+  });
+  struct Access {
+    Row* out;
+    Triple<T> read(std::size_t i) const { return {out[i].x(), out[i].y(), out[i].z()}; }
+    void write(std::size_t i, const Triple<T>& p) const { out[i] = Row(p.x, p.y, p.z); }
+  };
+  blend(pieces, Access{out}, threads);
+}
+
+}  // namespace tendril::bind

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "dynamics/linear/block_matrix.h"
+#include "dynamics/rhs/rates.h"
+
+namespace tendril {
+
+/// Derivatives of the external forces that do not give their own, by differences: groups of columns, a kind
+/// of coordinate (an axis of p, an axis of v, the spin w) at the nodes of one colour, are moved together.
+/// Nodes of one colour share no row of the pattern.
+template <int B>
+class Differences {
+ public:
+  Differences(const System::Model& model, const BlockPattern& pattern)
+      : model_(model), kinds_(model.twist_nodes > 0 ? 7 : 6) {
+    neighbours_.resize(pattern.size());
+    for (std::size_t k = 0; k < pattern.size(); ++k) {
+      neighbours_[pattern.node(k)].push_back(pattern.node(k));
+      for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+        neighbours_[pattern.node(k)].push_back(pattern.node(pattern.later(e)));
+        neighbours_[pattern.node(pattern.later(e))].push_back(pattern.node(k));
+      }
+    }
+    colour();
+    for (std::size_t i = 0; i < model.nodes; ++i) length_ = std::max(length_, model.rest_length[i]);
+  }
+
+  /// Adds to the two matrices; returns the evaluations it took, negative when one failed.
+  long add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
+    long evaluations = 1;
+    if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
+    const Eigen::Index n3 = model_.v_begin();
+    const double speed = std::max(state.y.segment(n3, n3).cwiseAbs().maxCoeff(), length_);
+    const double steps[3] = {1e-7 * length_, 1e-7 * speed, 1e-7 * speed / length_};
+    for (const auto& nodes : coloured_)
+      for (std::size_t kind = 0; kind < kinds_; ++kind) {
+        const double step = steps[kind < 3 ? 0 : kind < 6 ? 1 : 2];
+        moved_ = state.y;
+        bool any = false;
+        for (const std::size_t i : nodes) {
+          const Eigen::Index place = place_of(i, kind);
+          any = any || place >= 0;
+          if (place >= 0) moved_[place] += step;
+        }
+        if (!any) continue;
+        ++evaluations;
+        if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
+        dy_ = (dy_ - base_) / step;
+        for (const std::size_t i : nodes)
+          if (place_of(i, kind) >= 0) take(i, kind, kind < 3 ? by_x : by_u);
+      }
+    return evaluations;
+  }
+
+ private:
+  /// Greedily, in the order of the nodes: the least colour that no node two couplings away has.
+  void colour() {
+    std::vector<std::size_t> colours(model_.nodes, kNone);
+    std::vector<std::size_t> taken_by;
+    for (std::size_t i = 0; i < model_.nodes; ++i) {
+      taken_by.resize(std::max(taken_by.size(), coloured_.size()), kNone);
+      for (const std::size_t j : neighbours_[i])
+        for (const std::size_t k : neighbours_[j])
+          if (colours[k] != kNone) taken_by[colours[k]] = i;
+      std::size_t c = 0;
+      while (c < coloured_.size() && taken_by[c] == i) ++c;
+      if (c == coloured_.size()) coloured_.emplace_back();
+      coloured_[c].push_back(i);
+      colours[i] = c;
+    }
+  }
+
+  Eigen::Index place_of(std::size_t i, std::size_t kind) const {
+    const auto axis = static_cast<Eigen::Index>(3 * i + kind % 3);
+    if (kind < 6) return model_.holds_position(i) ? -1 : axis + (kind < 3 ? 0 : model_.v_begin());
+    return model_.inverse_inertia[i] > 0.0 ? model_.spin_begin() + model_.twist_index[i] : -1;
+  }
+
+  void take(std::size_t i, std::size_t kind, BlockMatrix<B>& to) {
+    const std::size_t column = kind < 6 ? kind % 3 : B - 1;
+    for (const std::size_t row : neighbours_[i]) {
+      auto* block = to.find(row, i);
+      if (!model_.holds_position(row))
+        for (std::size_t r = 0; r < 3; ++r)
+          block->column[column][r] += dy_[model_.v_begin() + static_cast<Eigen::Index>(3 * row + r)];
+      if (B == 4 && model_.inverse_inertia[row] > 0.0)
+        block->column[column][B - 1] += dy_[model_.spin_begin() + model_.twist_index[row]];
+    }
+  }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  const System::Model& model_;
+  std::size_t kinds_;
+  double length_ = 0.0;
+  std::vector<std::vector<std::size_t>> neighbours_;  ///< per node, itself first
+  std::vector<std::vector<std::size_t>> coloured_;    ///< nodes of each colour
+  Eigen::VectorXd base_, dy_, moved_;
+};
+
+}  // namespace tendril

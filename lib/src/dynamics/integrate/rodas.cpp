@@ -1,0 +1,176 @@
+#include <tendril/dynamics/rodas.h>
+
+#include <array>
+
+#include "dynamics/rhs/rates.h"
+#include "dynamics/vector/combine.h"
+#include "dynamics/vector/finite.h"
+#include "stiff_solver.h"
+
+namespace tendril {
+namespace {
+
+constexpr double kGamma = 0.25;
+constexpr std::array<double, 6> kTime{0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
+constexpr std::array<double, 6> kTimeSlope{0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0};
+/// Arguments of the stages from the stages before (the sixth adds the fifth), and what they add to the
+/// right-hand side.
+constexpr std::array<std::array<double, 5>, 6> kA{{
+    {},
+    {0.1544000000000000e+01},
+    {0.9466785280815826e+00, 0.2557011698983284e+00},
+    {0.3314825187068521e+01, 0.2896124015972201e+01, 0.9986419139977817e+00},
+    {0.1221224509226641e+01, 0.6019134481288629e+01, 0.1253708332932087e+02, -0.6878860361058950e+00},
+    {0.1221224509226641e+01, 0.6019134481288629e+01, 0.1253708332932087e+02, -0.6878860361058950e+00, 1.0},
+}};
+constexpr std::array<std::array<double, 5>, 6> kC{{
+    {},
+    {-0.5668800000000000e+01},
+    {-0.2430093356833875e+01, -0.2063599157091915e+00},
+    {-0.1073529058151375e+00, -0.9594562251023355e+01, -0.2047028614809616e+02},
+    {0.7496443313967647e+01, -0.1024680431464352e+02, -0.3399990352819905e+02, 0.1170890893206160e+02},
+    {0.8083246795921522e+01, -0.7981132988064893e+01, -0.3152159432874371e+02, 0.1631930543123136e+02,
+     -0.6058818238834054e+01},
+}};
+
+}  // namespace
+
+struct Rodas::Implementation {
+  explicit Implementation(const System& s)
+      : system(s), work(s.make_workspace()), solver(make_stiff_solver(s, *work)) {
+    const System::Model& model = s.model();
+    for (const auto& force : s.scene().forces) works = works || !force->has_energy();
+    for (const Anchor& anchor : model.anchors) moves = moves || anchor.motion;
+    for (const System::Model::Segment& segment : model.segments) resists = resists || segment.viscous;
+    for (const Joint& joint : s.scene().joints) moves = moves || !joint.reaction;
+    works = works || moves || resists || model.damped;
+  }
+
+  Evaluation prepare(const State& state) {
+    if (known) return {};
+    if (!arrived(state)) {
+      ++evaluations;
+      if (const Evaluation ok = system.derivative(state, state.time, state.y, rate, *work); !ok.ok())
+        return ok;
+    }
+    const long cost = solver->differentiate(state, rate);
+    if (cost < 0) return {Evaluation::Outcome::not_finite, 0};
+    evaluations += cost;
+    known = true;
+    return {};
+  }
+
+  /// Takes over the derivative at the last step's end where the state is that end, rebased: only the angles
+  /// are counted from a new reference.
+  bool arrived(const State& state) {
+    const System::Model& model = system.model();
+    if (end.size() == 0 || state.time != end_time) return false;
+    const Eigen::Index places = model.theta_begin();
+    const Eigen::Index rest = model.spin_begin();
+    if (state.y.head(places) != end_y.head(places)) return false;
+    const auto m = static_cast<Eigen::Index>(model.twist_nodes);
+    if (state.y.segment(rest, m) != end_y.segment(rest, m)) return false;
+    rate.swap(end);
+    end.resize(0);
+    for (std::size_t i = 0; i < model.nodes; ++i)
+      if (model.has_twist(i))
+        rate[model.theta_begin() + model.twist_index[i]] =
+            model.holds_frame(i) ? 0.0 : state.y[model.spin_begin() + model.twist_index[i]];
+    return true;
+  }
+
+  Evaluation stages(const State& state, double h, Eigen::VectorXd& y) {
+    Eigen::VectorXd r = rate;
+    for (std::size_t i = 0; i < 6; ++i) {
+      Term terms[6];
+      for (std::size_t j = 0; j < i; ++j) terms[j] = {kA[i][j], &stage[j]};
+      if (i > 0) {
+        combine(&state.y, terms, i, y);
+        ++evaluations;
+        const Evaluation ok = system.derivative(state, state.time + kTime[i] * h, y, r, *work);
+        if (!ok.ok()) return ok;
+      }
+      for (std::size_t j = 0; j < i; ++j) terms[j].weight = kC[i][j] / h;
+      if (i > 0) combine(&r, terms, i, r);
+      if (solver->by_time().size() > 0 && kTimeSlope[i] != 0.0)
+        r.noalias() += (h * kTimeSlope[i]) * solver->by_time();
+      solver->solve(1.0 / (h * kGamma), r, stage[i]);
+    }
+    y += stage[5];
+    return {};
+  }
+
+  /// Work done over the step, by Simpson's rule with the cubic through both ends' positions and velocities.
+  Evaluation add_work(const State& state, double h, Eigen::VectorXd& y) {
+    if (!works) return {};
+    const System::Model& model = system.model();
+    const Eigen::Index last = y.size() - 1;
+    const auto n = model.v_begin();
+    const auto m = static_cast<Eigen::Index>(model.twist_nodes);
+    middle = 0.5 * (state.y + y);
+    const auto bend = [&](Eigen::Index x, Eigen::Index u, Eigen::Index count) {
+      middle.segment(x, count) += h / 8 * (state.y.segment(u, count) - y.segment(u, count));
+      middle.segment(u, count) = 1.5 / h * (y.segment(x, count) - state.y.segment(x, count)) -
+                                 0.25 * (state.y.segment(u, count) + y.segment(u, count));
+    };
+    bend(0, n, n);
+    if (m > 0) bend(model.theta_begin(), model.spin_begin(), m);
+    evaluations += 2;
+    // Springs that only store energy do no work; they are left out where nothing else asks for their forces.
+    if (const Evaluation ok =
+            rates(model, state, state.time + h / 2, middle, moves || resists, half_way, *work);
+        !ok.ok())
+      return ok;
+    if (const Evaluation ok = system.derivative(state, state.time + h, y, end, *work); !ok.ok()) return ok;
+    y[last] = state.y[last] + h / 6 * (rate[last] + 4 * half_way[last] + end[last]);
+    end_time = state.time + h;
+    end_y = y;
+    return {};
+  }
+
+  const System& system;
+  System::WorkspacePtr work;
+  std::unique_ptr<StiffSolver> solver;
+  Eigen::VectorXd rate;
+  std::array<Eigen::VectorXd, 6> stage;
+  Eigen::VectorXd middle, half_way;
+  Eigen::VectorXd end, end_y;  ///< derivative at the end of the last step tried; empty when there is none
+  double end_time = 0.0;
+  bool works = false;    ///< whether anything but springs and energies acts
+  bool moves = false;    ///< what is held may do work on the springs
+  bool resists = false;  ///< springs turn work into heat
+  bool known = false;    ///< rate and Jacobian belong to the present state
+  long evaluations = 0;
+};
+
+Rodas::Rodas(const System& system) : self_(std::make_unique<Implementation>(system)) {}
+Rodas::~Rodas() = default;
+
+Evaluation Rodas::step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) {
+  if (const Evaluation ok = self_->prepare(state); !ok.ok()) return ok;
+  if (!self_->solver->factor(1.0 / (h * kGamma))) return {Evaluation::Outcome::not_converged, 0};
+  if (const Evaluation ok = self_->stages(state, h, y); !ok.ok()) return ok;
+  if (const Evaluation ok = self_->add_work(state, h, y); !ok.ok()) return ok;
+  error = self_->stage[5];
+  return all_finite(y) && all_finite(error) ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
+}
+
+Evaluation Rodas::advance(State& state, double h) {
+  Eigen::VectorXd y;
+  Eigen::VectorXd error;
+  if (const Evaluation ok = step(state, h, y, error); !ok.ok()) return ok;
+  state.y = std::move(y);
+  state.time += h;
+  restart();
+  return self_->system.rebase(state, *self_->work);
+}
+
+void Rodas::restart() {
+  self_->known = false;
+}
+
+long Rodas::evaluations() const {
+  return self_->evaluations;
+}
+
+}  // namespace tendril

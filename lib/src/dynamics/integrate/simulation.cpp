@@ -1,0 +1,228 @@
+#include <tendril/base/error.h>
+#include <tendril/dynamics/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "controller.h"
+#include "dynamics/scene/words.h"
+
+namespace tendril {
+namespace {
+
+std::vector<Interpolator> fits_of(const System& system, const SimulationOptions& options) {
+  std::vector<Interpolator> fits;
+  for (const Rod& rod : system.scene().rods) {
+    const int degree = std::min(options.degree, static_cast<int>(rod.p.size()) - 1);
+    fits.emplace_back(degree, rod.p, options.parametrisation);
+  }
+  return fits;
+}
+
+void check(const SimulationOptions& options) {
+  const auto positive = [](const char* what, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw InvalidInput(what, std::to_string(value), "a positive number");
+  };
+  positive("tolerance", options.tolerance);
+  positive("energy_limit", options.energy_limit);
+  if (options.fixed_step) positive("fixed_step", *options.fixed_step);
+  if (!options.own_stepper && options.fixed_step.has_value() == chooses_steps(options.method))
+    throw InvalidInput("fixed_step", options.fixed_step ? "given" : "missing",
+                       options.fixed_step
+                           ? std::string("none: ") + to_string(options.method) + " chooses its own steps"
+                           : std::string("a step for ") + to_string(options.method));
+  positive("amplification", options.amplification);
+  positive("total_amplification", options.total_amplification);
+  if (options.first_step) positive("first_step", *options.first_step);
+  if (options.largest_step) positive("largest_step", *options.largest_step);
+  if (options.work_limit < 1)
+    throw InvalidInput("work_limit", std::to_string(options.work_limit), "at least 1");
+  if (options.degree < 1 || options.degree > kMaxDegree)
+    throw InvalidInput("degree", std::to_string(options.degree), "1 to " + std::to_string(kMaxDegree));
+}
+
+/// A run begins where the equations can be evaluated: there are frames then, and curves through the masses.
+void check_start(const System& system, const State& start) {
+  const State rest = system.rest_state();
+  if (start.y.size() != rest.y.size() || start.tangent.size() != rest.tangent.size() ||
+      start.director.size() != rest.director.size() || start.twist.size() != rest.twist.size())
+    throw InvalidInput("start", "a state of other sizes", "one made by System::rest_state");
+  Eigen::VectorXd rate;
+  const auto work = system.make_workspace();
+  const Evaluation at = system.derivative(start, start.time, start.y, rate, *work);
+  if (at.ok() && start.y.allFinite()) return;
+  std::size_t rod = 0;
+  while (rod + 1 < system.rods().size() && at.node >= system.rods()[rod + 1].first) ++rod;
+  throw InvalidInput(sentence("start: rod ", rod, " node ", at.node - system.rods()[rod].first),
+                     describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
+                     "a state at which the equations can be evaluated");
+}
+
+}  // namespace
+
+const char* to_string(Stop stop) {
+  switch (stop) {
+    case Stop::finished:
+      return "finished";
+    case Stop::cancelled:
+      return "cancelled";
+    case Stop::too_stiff:
+      return "too_stiff";
+    case Stop::work_limit:
+      return "work_limit";
+    case Stop::step_underflow:
+      return "step_underflow";
+    case Stop::not_evaluable:
+      return "not_evaluable";
+    case Stop::energy_lost:
+      return "energy_lost";
+  }
+  return "unknown";
+}
+
+struct Simulation::Implementation {
+  Implementation(const System& s, State start, const SimulationOptions& o) : system(&s), fits(fits_of(s, o)) {
+    for (const Anchor& anchor : s.scene().anchors)
+      if (std::isfinite(anchor.until)) releases.push_back(anchor.until);
+    std::sort(releases.begin(), releases.end());
+    const bool released = !releases.empty() && releases.front() <= start.time;
+    if (released) system = lay_out(start.time);
+    controller = std::make_unique<Controller>(*system, std::move(start), o);
+    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
+    for (std::size_t r = 0; r < fits.size(); ++r)
+      pairs.emplace_back(fits[r].knots(), primary(r), orientation(q, r));
+  }
+
+  std::vector<Vec3> primary(std::size_t r) const {
+    const NodeRange& range = system->rods()[r];
+    std::vector<Vec3> p;
+    for (std::size_t i = 0; i < range.count; ++i)
+      p.push_back(controller->state().y.segment<3>(3 * static_cast<Eigen::Index>(range.first + i)));
+    return fits[r].solve(p);
+  }
+  std::vector<Vec3> orientation(const std::vector<Vec3>& q, std::size_t r) const {
+    const NodeRange& range = system->rods()[r];
+    return fits[r].solve(Points(q).subspan(range.first, range.count));
+  }
+
+  const System* lay_out(double from) {
+    laid_out.push_back(std::make_unique<const System>(system->scene(), from));
+    return laid_out.back().get();
+  }
+
+  double next_release() const {
+    const auto next = std::upper_bound(releases.begin(), releases.end(), controller->state().time);
+    return next == releases.end() ? std::numeric_limits<double>::infinity() : *next;
+  }
+
+  /// Frees what lets go at the present time. False when the freed rods have no frames there.
+  bool release(double until) {
+    State state = controller->state();
+    // Of a rod without twist state only one node's director is known, and another one may be asked for.
+    const std::vector<Frame> frames = system->frames(state, controller->workspace());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      state.tangent[i] = frames[i].z;
+      state.director[i] = frames[i].y;
+    }
+    const System* freed = lay_out(state.time);
+    if (!freed->rebase(state, *freed->make_workspace()).ok()) return false;
+    controller = std::make_unique<Controller>(*freed, std::move(state), *controller);
+    system = freed;
+    laid_out.erase(laid_out.begin(), laid_out.end() - 1);
+    controller->begin(until);
+    return true;
+  }
+
+  /// One accepted step; what lets go at its end is freed. False when the run has to stop.
+  bool step_towards(double target, double until) {
+    const double next = next_release();
+    if (!controller->step_towards(std::min(target, next))) return false;
+    if (controller->state().time < next) return true;
+    if (release(until)) return true;
+    controller->refuse_release();
+    return false;
+  }
+
+  void fit() {
+    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
+    for (std::size_t r = 0; r < fits.size(); ++r) pairs[r].set_control_points(primary(r), orientation(q, r));
+  }
+
+  void tell(When when) {
+    bool fitted = false;
+    for (const auto& [follower, its_when] : followers) {
+      if (its_when != when) continue;
+      if (!fitted) fit();
+      fitted = true;
+      follower->follow(controller->state().time, pairs);
+    }
+  }
+
+  std::vector<std::unique_ptr<const System>> laid_out;  ///< the scene after what has let go
+  const System* system;
+  std::unique_ptr<Controller> controller;
+  std::vector<double> releases;  ///< ascending
+  std::vector<Interpolator> fits;
+  std::vector<CurvePair> pairs;
+  std::vector<std::pair<Follower*, When>> followers;
+  std::function<bool(double)> progress;
+};
+
+Simulation::Simulation(const System& system, State start, const SimulationOptions& options) {
+  check(options);
+  check_start(system, start);
+  self_ = std::make_unique<Implementation>(system, std::move(start), options);
+}
+Simulation::~Simulation() = default;
+
+void Simulation::add(Follower& follower, When when) {
+  self_->followers.emplace_back(&follower, when);
+}
+
+void Simulation::on_progress(std::function<bool(double time)> progress) {
+  self_->progress = std::move(progress);
+}
+
+Report Simulation::run(double until, std::span<const double> outputs) {
+  const double from = self_->controller->state().time;
+  if (!(until >= from) || !std::isfinite(until))
+    throw InvalidInput("until", std::to_string(until), "a time not before " + std::to_string(from));
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!(outputs[i] >= (i > 0 ? outputs[i - 1] : from)) || !(outputs[i] <= until))
+      throw InvalidInput("outputs[" + std::to_string(i) + "]", std::to_string(outputs[i]),
+                         "ascending times within the run");
+
+  self_->controller->begin(until);
+  std::size_t next = 0;
+  const auto tell_outputs = [&] {
+    bool due = false;
+    for (; next < outputs.size() && outputs[next] <= self_->controller->state().time; ++next) due = true;
+    if (due) self_->tell(When::output);
+  };
+  tell_outputs();
+  while (self_->controller->running()) {
+    const double target = next < outputs.size() ? outputs[next] : until;
+    if (!self_->step_towards(target, until)) break;
+    self_->tell(When::accepted_step);
+    tell_outputs();
+    if (self_->progress && !self_->progress(self_->controller->state().time)) self_->controller->cancel();
+  }
+  self_->fit();
+  return self_->controller->report();
+}
+
+const State& Simulation::state() const {
+  return self_->controller->state();
+}
+
+std::span<const CurvePair> Simulation::pairs() const {
+  return self_->pairs;
+}
+
+std::span<const double> Simulation::parameters(std::size_t rod) const {
+  return self_->fits.at(rod).parameters();
+}
+
+}  // namespace tendril

@@ -1,0 +1,397 @@
+#include "stiff_solver.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "differences.h"
+#include "dynamics/linear/block_route.h"
+#include "dynamics/rhs/elastic.h"
+#include "dynamics/rhs/kinematics.h"
+#include "dynamics/rhs/pull_back.h"
+#include "dynamics/rhs/rates.h"
+#include "dynamics/scene/free_bodies.h"
+#include "dynamics/stiffness/spring_stiffness.h"
+#include "dynamics/stiffness/stiffness_elements.h"
+#include "dynamics/stiffness/turning.h"
+#include "dynamics/stiffness/viscous_turning.h"
+
+namespace tendril {
+namespace {
+
+using Model = System::Model;
+
+/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
+std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
+  const NodeRange& nodes = model.rods[rod];
+  std::vector<std::size_t> order;
+  for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
+    order.push_back(--high);
+    if (low < high && !model.ride_of(rod)) order.push_back(low++);
+  }
+  return order;
+}
+
+bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
+  const Model::Ride* ride = model.ride_of(child);
+  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
+}
+
+/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
+/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
+/// core.
+std::vector<std::size_t> elimination_order(const Model& model) {
+  std::vector<std::size_t> order;
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
+    const std::vector<std::size_t> one = inwards(model, *r);
+    std::vector<std::size_t> two;
+    const bool paired = r + 1 != model.order.rend() && !rides_on(model, *r, *(r + 1));
+    if (paired) two = inwards(model, *++r);
+    for (std::size_t k = 0; k < std::max(one.size(), two.size()); ++k) {
+      if (k < one.size()) order.push_back(one[k]);
+      if (k < two.size()) order.push_back(two[k]);
+    }
+  }
+  return order;
+}
+
+/// Nodes that see each other: with twist up to the third neighbour, without (a hinge) up to the second; the
+/// first edge of a child sees its parent's frame.
+std::vector<std::pair<std::size_t, std::size_t>> couplings(const Model& model) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const NodeRange& rod : model.rods) {
+    const std::size_t reach = model.has_twist(rod.first) ? 3 : 2;
+    for (std::size_t i = rod.first; i < rod.first + rod.count; ++i)
+      for (std::size_t j = i + 1; j <= std::min(i + reach, rod.first + rod.count - 1); ++j)
+        pairs.emplace_back(model.carrier[i], model.carrier[j]);
+    const std::size_t parent = model.carrier[rod.first];
+    if (parent == rod.first) continue;
+    for (std::size_t j = parent - (model.has_before(parent) ? 1 : 0);
+         j <= parent + (model.has_after(parent) ? 1 : 0); ++j)
+      for (std::size_t i = rod.first + 1; i <= std::min(rod.first + 2, rod.first + rod.count - 1); ++i)
+        pairs.emplace_back(model.carrier[j], i);
+  }
+  return pairs;
+}
+
+bool depends_on_state(const Model& model) {
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_state()) return true;
+  return false;
+}
+
+bool needs_differences(const Model& model) {
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_state() && !force->has_derivatives()) return true;
+  return false;
+}
+
+bool depends_on_time(const Model& model) {
+  for (const Anchor& anchor : model.anchors)
+    if (anchor.motion) return true;
+  for (const auto& force : model.scene.forces)
+    if (force->depends_on_time()) return true;
+  return false;
+}
+
+bool resists(const Model& model) {
+  for (const Model::Segment& s : model.segments)
+    if (s.viscous) return true;
+  return false;
+}
+
+/// What the connection term of a node is derived by: theta' = w + by . (p_{i-1}, p_i, p_{i+1}).
+struct Connection {
+  std::size_t node;
+  std::array<std::size_t, 3> from;  ///< carriers; EdgeStiffness::kNone for what is not there
+  std::array<Vec3, 3> by;
+};
+
+/// The derivatives that forces give of their own, under the nodes that carry and feel them.
+template <int B>
+class OwnDerivatives : public LoadDerivatives {
+ public:
+  OwnDerivatives(const Model& model, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
+      : model_(model), by_x_(by_x), by_u_(by_u) {}
+  void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override { add(by_x_, i, j, k); }
+  void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override { add(by_u_, i, j, k); }
+
+ private:
+  void add(BlockMatrix<B>& to, std::size_t i, std::size_t j, const Mat3& k) {
+    if (!model_.feels[i]) return;
+    if (auto* block = to.find(model_.carrier[i], model_.carrier[j])) block->add(k);
+  }
+  const Model& model_;
+  BlockMatrix<B>&by_x_, &by_u_;
+};
+
+template <int B>
+class BlockSolver : public StiffSolver {
+ public:
+  BlockSolver(const System& system, System::Workspace& work)
+      : system_(system),
+        model_(system.model()),
+        work_(work),
+        loaded_(model_.loaded && depends_on_state(model_)),
+        rates_matter_(B == 4 || loaded_),
+        timed_(depends_on_time(model_)),
+        pattern_(elimination_order(model_), couplings(model_)),
+        by_x_(pattern_, !rates_matter_),
+        to_x_(by_x_),
+        matrix_(pattern_, !rates_matter_),
+        b_(4 * pattern_.size()),
+        x_(4 * pattern_.size()) {
+    if (rates_matter_) {
+      by_u_.emplace(pattern_, false);
+      to_u_.emplace(*by_u_);
+    }
+    if (resists(model_)) turning_.emplace(model_);
+    if (needs_differences(model_)) differences_.emplace(model_, pattern_);
+    lay_out();
+    if (!loaded_) bodies_.emplace(model_, pattern_.nodes());  // loads that depend on the state do not cancel
+  }
+
+  long differentiate(const State& state, const Eigen::VectorXd& rate) override {
+    to_x_.restart();
+    if (to_u_) to_u_->restart();
+    double energy = 0.0;
+    if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
+    const bool viscous = turning_.has_value();
+    if (viscous && !add_viscous_gradient(state)) return -1;
+    visit_stiffness(model_, state, work_, viscous, -1.0, to_x_);
+    long evaluations = 1;
+    if constexpr (B == 4) {
+      if (viscous) visit_resistance(model_, work_, *to_u_);
+      // The rates of the frames are needed from here on.
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
+      add_turning();
+      if (turning_ && !turning_->add(state, rate, work_, to_x_)) return -1;
+    }
+    if (loaded_) {
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
+      const StateView seen = view(model_, state.time, work_);
+      OwnDerivatives<B> own(model_, by_x_, *by_u_);
+      for (const auto& force : model_.scene.forces)
+        if (force->depends_on_state()) force->add_derivatives(seen, own);
+    }
+    if (differences_) {
+      const long cost = differences_->add(state, work_, by_x_, *by_u_);
+      if (cost < 0) return -1;
+      evaluations += cost;
+    }
+    for (const Held& held : held_) {
+      by_x_.release(held.node, held.coordinate);
+      if (by_u_) by_u_->release(held.node, held.coordinate);
+    }
+    if (timed_ && !take_time(state, rate)) return -1;
+    return evaluations + (timed_ ? 1 : 0);
+  }
+
+  bool factor(double s) override {
+    matrix_.set_negative(by_x_, s, by_u_ ? &*by_u_ : nullptr);
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      auto* diagonal = matrix_.find(pattern_.node(k), pattern_.node(k));
+      for (std::size_t c = 0; c < B; ++c)
+        diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
+    }
+    if (links_.empty())
+      for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
+    for (const Link& link : links_) add_connection(s, link);
+    for (const Held& held : held_) {
+      if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
+      matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
+    }
+    return matrix_.factor();
+  }
+
+  void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) override {
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto put = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        x_[4 * k + c] = r[x];
+        b_[4 * k + c] = mass_[4 * k + c] * (r[u] + s * r[x]) + damping_[4 * k + c] * r[x];
+      };
+      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
+    }
+    if (bodies_) bodies_->keep(b_.data());
+    if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
+    for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
+    matrix_.solve(b_.data());
+    if (bodies_) bodies_->restore([&](std::size_t i) { return s * (s * mass_[i] + damping_[i]); }, b_.data());
+    result.setZero(r.size());
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const auto take = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
+        result[x] = b_[4 * k + c];
+        result[u] = s * b_[4 * k + c] - x_[4 * k + c];
+      };
+      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      if (B == 4 && angle_[k] >= 0)
+        take(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
+    }
+    for (const Connection& c : connections_)
+      result[model_.spin_begin() + model_.twist_index[c.node]] -= turned_by(c);
+  }
+
+ private:
+  struct Held {
+    std::size_t node, coordinate;
+  };
+
+  /// Places in y, the masses of what is free, and what is held: there every rate is 0, and stays it.
+  void lay_out() {
+    mass_.assign(b_.size(), 0.0);
+    damping_.assign(b_.size(), 0.0);
+    for (std::size_t k = 0; k < pattern_.size(); ++k) {
+      const std::size_t i = pattern_.node(k);
+      place_.push_back(static_cast<Eigen::Index>(3 * i));
+      angle_.push_back(B == 4 ? model_.twist_index[i] : -1);
+      for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
+      if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
+    }
+  }
+  void set(std::size_t k, std::size_t c, bool free, double mass) {
+    if (!free) {
+      held_.push_back({pattern_.node(k), c});
+      return;
+    }
+    mass_[4 * k + c] = mass;
+    damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
+  }
+
+  bool take_time(const State& state, const Eigen::VectorXd& rate) {
+    const double step = 1e-7 * std::max(1e-3, std::abs(state.time));
+    if (!system_.derivative(state, state.time + step, state.y, by_time_, work_).ok()) return false;
+    by_time_ = (by_time_ - rate) / step;
+    return true;
+  }
+
+  /// Nodes before, at and after i, by what carries them.
+  std::array<std::size_t, 3> around(std::size_t i) const {
+    return {model_.has_before(i) ? model_.carrier[i - 1] : EdgeStiffness::kNone, model_.carrier[i],
+            model_.has_after(i) ? model_.carrier[i + 1] : EdgeStiffness::kNone};
+  }
+
+  /// Whether what carries the node before, at or after i feels it.
+  bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
+
+  /// Blocks by the vectors along the two edges of node i, as blocks by its three positions.
+  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockRoute<B>& to) const {
+    const auto nodes = around(i);
+    const auto add = [&](std::size_t a, std::size_t b, const Mat3& block) {
+      if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
+        to.block(nodes[a], nodes[b], block);
+    };
+    add(0, 0, k[0][0]);
+    add(0, 1, k[0][1] - k[0][0]);
+    add(0, 2, -k[0][1]);
+    add(1, 0, k[1][0] - k[0][0]);
+    add(1, 1, k[0][0] - k[0][1] - k[1][0] + k[1][1]);
+    add(1, 2, k[0][1] - k[1][1]);
+    add(2, 0, -k[1][0]);
+    add(2, 1, k[1][0] - k[1][1]);
+    add(2, 2, k[1][1]);
+  }
+
+  /// The workspace's g_spin is no longer that of the springs alone; the gradient's is.
+  void add_turning() {
+    connections_.clear();
+    for (std::size_t i = 0; i < model_.nodes; ++i) {
+      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
+      const TurningTerms terms =
+          turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_);
+      add_by_nodes(i, terms.by_x, to_x_);
+      add_by_nodes(i, terms.by_v, *to_u_);
+      const auto nodes = around(i);
+      const Vec3 spin[3] = {-terms.by_spin[0], terms.by_spin[0] - terms.by_spin[1], terms.by_spin[1]};
+      for (std::size_t a = 0; a < 3; ++a)
+        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) to_u_->column(nodes[a], i, spin[a]);
+      connections_.push_back(
+          {i, nodes, {-terms.connection[0], terms.connection[0] - terms.connection[1], terms.connection[1]}});
+    }
+  }
+
+  /// After it the workspace holds the gradient with its viscous part, and the rates.
+  bool add_viscous_gradient(const State& state) {
+    double heat = 0.0;
+    if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return false;
+    if (!elastic(model_, state, {.viscous = true, .gyroscopic = false}, work_, heat).ok()) return false;
+    pull_back(model_, work_);
+    for (std::size_t i = 0; i < model_.nodes; ++i)
+      if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = work_.g_spin[i];
+    return true;
+  }
+
+  /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle
+  /// itself also the inertia.
+  struct Link {
+    const typename BlockMatrix<B>::Block* from;
+    typename BlockMatrix<B>::Block* to;
+    std::size_t connection, a;
+    bool own;
+  };
+
+  /// Where a connection adds, as far as the pattern goes.
+  void link(std::size_t connection) {
+    const Connection& c = connections_[connection];
+    const std::size_t own = pattern_.pivot(c.node);
+    const auto add = [&](std::size_t row) {
+      const auto* from = by_u_->find(row, c.node);
+      for (std::size_t a = 0; a < 3; ++a) {
+        auto* to = c.from[a] == EdgeStiffness::kNone ? nullptr : matrix_.find(row, c.from[a]);
+        if (to) links_.push_back({from, to, connection, a, row == c.node});
+      }
+    };
+    add(c.node);
+    for (std::size_t e = pattern_.begin(own); e < pattern_.begin(own + 1); ++e)
+      add(pattern_.node(pattern_.later(e)));
+    for (const std::size_t e : pattern_.earlier(own)) add(pattern_.node(pattern_.low(e)));
+  }
+
+  void add_connection(double s, const Link& link) {
+    const Connection& c = connections_[link.connection];
+    std::array<double, 4> by = link.from->column[B - 1];
+    if (link.own) {
+      const std::size_t angle = 4 * pattern_.pivot(c.node) + 3;
+      by[3] -= s * mass_[angle] + damping_[angle];
+    }
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t r = 0; r < B; ++r)
+        link.to->column[column][r] += by[r] * c.by[link.a][static_cast<Eigen::Index>(column)];
+  }
+
+  double turned_by(const Connection& c) const {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      if (c.from[a] != EdgeStiffness::kNone)
+        sum += c.by[a].dot(Eigen::Map<const Vec3>(&b_[4 * pattern_.pivot(c.from[a])]));
+    return sum;
+  }
+
+  const System& system_;
+  const Model& model_;
+  System::Workspace& work_;
+  bool loaded_, rates_matter_, timed_;
+  BlockPattern pattern_;
+  BlockMatrix<B> by_x_;
+  BlockRoute<B> to_x_;
+  BlockMatrix<B> matrix_;
+  std::optional<BlockMatrix<B>> by_u_;
+  std::optional<BlockRoute<B>> to_u_;
+  std::optional<Differences<B>> differences_;
+  std::vector<Connection> connections_;
+  std::vector<Link> links_;
+  std::vector<Held> held_;
+  std::vector<Eigen::Index> place_, angle_;  ///< per pivot, of its node in p, and in theta or -1
+  std::optional<FreeBodies> bodies_;
+  std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
+  std::optional<ViscousTurning> turning_;
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace
+
+std::unique_ptr<StiffSolver> make_stiff_solver(const System& system, System::Workspace& work) {
+  if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work);
+  return std::make_unique<BlockSolver<3>>(system, work);
+}
+
+}  // namespace tendril

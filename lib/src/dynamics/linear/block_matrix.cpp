@@ -1,0 +1,292 @@
+#include "block_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/vector/lanes.h"
+
+namespace tendril {
+namespace {
+
+/// Four numbers in a register; at any address.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+TENDRIL_INLINE const Four& four(const std::array<double, 4>& a) {
+  return *reinterpret_cast<const Four*>(a.data());
+}
+TENDRIL_INLINE Four& four(std::array<double, 4>& a) {
+  return *reinterpret_cast<Four*>(a.data());
+}
+
+template <int B>
+using Block = typename BlockMatrix<B>::Block;
+
+/// to -= a b
+template <int B>
+TENDRIL_INLINE void subtract_product(const Block<B>& a, const Block<B>& b, Block<B>& to) {
+  for (std::size_t c = 0; c < B; ++c) {
+    Four sum = four(a.column[0]) * b.column[c][0];
+    for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * b.column[c][k];
+    four(to.column[c]) -= sum;
+  }
+}
+
+template <int B>
+TENDRIL_INLINE void transpose(const Block<B>& a, Block<B>& to) {
+  for (std::size_t c = 0; c < B; ++c)
+    for (std::size_t r = 0; r < B; ++r) to.column[c][r] = a.column[r][c];
+}
+
+/// L U of a block in place, the pivots inverted, without pivoting: the blocks are close to s^2 times a mass,
+/// or stiff and definite. Substitution with these factors, unlike an inverse of the block, keeps what is soft
+/// beside what is stiff.
+template <int B>
+TENDRIL_INLINE bool decompose(Block<B>& a) {
+  for (std::size_t k = 0; k < B; ++k) {
+    double largest = 0.0;
+    for (std::size_t c = k + 1; c < B; ++c) largest = std::max(largest, std::fabs(a.column[c][k]));
+    const double pivot = a.column[k][k];
+    if (!(std::fabs(pivot) > 1e-12 * largest) || !(std::fabs(pivot) < 1e300)) return false;
+    const double inverse = 1.0 / pivot;
+    a.column[k][k] = inverse;
+    for (std::size_t r = k + 1; r < B; ++r) {
+      a.column[k][r] *= inverse;
+      for (std::size_t c = k + 1; c < B; ++c) a.column[c][r] -= a.column[k][r] * a.column[c][k];
+    }
+  }
+  return true;
+}
+
+/// x = L^-1 x, or U^-1 x, for a column of numbers.
+template <int B>
+TENDRIL_INLINE void substitute_lower(const Block<B>& factors, double* x) {
+  for (std::size_t k = 0; k + 1 < B; ++k)
+    for (std::size_t r = k + 1; r < B; ++r) x[r] -= factors.column[k][r] * x[k];
+}
+template <int B>
+TENDRIL_INLINE void substitute_upper(const Block<B>& factors, double* x) {
+  for (std::size_t k = B; k-- > 0;) {
+    x[k] *= factors.column[k][k];
+    for (std::size_t r = 0; r < k; ++r) x[r] -= factors.column[k][r] * x[k];
+  }
+}
+
+/// a = a U^-1
+template <int B>
+TENDRIL_INLINE void divide_by_upper(const Block<B>& factors, Block<B>& a) {
+  for (std::size_t c = 0; c < B; ++c) {
+    for (std::size_t k = 0; k < c; ++k) four(a.column[c]) -= four(a.column[k]) * factors.column[c][k];
+    four(a.column[c]) *= factors.column[c][c];
+  }
+}
+
+template <int B>
+struct Parts {
+  Block<B>* diagonal;
+  Block<B>* upper;
+  Block<B>* lower;
+};
+
+/// The scalar elimination, block by block: D = L U, upper blocks L^-1 A, lower blocks A U^-1 (in the
+/// symmetric case the transposes of the upper ones times the inverse pivots).
+template <int B, bool Symmetric>
+TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m) {
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    if (!decompose<B>(m.diagonal[k])) return false;
+    const Block<B> factors = m.diagonal[k];
+    const std::size_t begin = pattern.begin(k);
+    const std::size_t count = pattern.begin(k + 1) - begin;
+    const std::size_t* pair = pattern.pairs(k);
+    for (std::size_t a = 0; a < count; ++a) {
+      Block<B>& upper = m.upper[begin + a];
+      for (std::size_t c = 0; c < B; ++c) substitute_lower<B>(factors, upper.column[c].data());
+      Block<B>& lower = m.lower[begin + a];
+      if constexpr (Symmetric) {
+        transpose<B>(upper, lower);
+        for (std::size_t c = 0; c < B; ++c) four(lower.column[c]) *= factors.column[c][c];
+      } else {
+        divide_by_upper<B>(factors, lower);
+      }
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+      subtract_product<B>(m.lower[begin + a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
+      for (std::size_t b = a + 1; b < count; ++b, ++pair) {
+        subtract_product<B>(m.lower[begin + a], m.upper[begin + b], m.upper[*pair]);
+        if constexpr (!Symmetric) subtract_product<B>(m.lower[begin + b], m.upper[begin + a], m.lower[*pair]);
+      }
+    }
+  }
+  return true;
+}
+
+/// sum = a x
+template <int B>
+TENDRIL_INLINE void apply(const Block<B>& a, const double* x, Four& sum) {
+  sum = four(a.column[0]) * x[0];
+  for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * x[k];
+}
+
+template <int B>
+TENDRIL_INLINE void subtract(const Block<B>& a, const double* x, Four& from) {
+  Four sum;
+  apply<B>(a, x, sum);
+  from -= sum;
+}
+
+TENDRIL_INLINE Four& at(double* x) {
+  return *reinterpret_cast<Four*>(x);
+}
+
+template <int B>
+TENDRIL_INLINE void solve_blocks(const BlockPattern& pattern, const Block<B>* diagonal, const Block<B>* upper,
+                                 const Block<B>* lower, double* b) {
+  const std::size_t n = pattern.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    double* x = b + 4 * k;
+    substitute_lower<B>(diagonal[k], x);
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
+      subtract<B>(lower[e], x, at(b + 4 * pattern.later(e)));
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    Four sum = at(b + 4 * k);
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
+      subtract<B>(upper[e], b + 4 * pattern.later(e), sum);
+    double x[4];
+    at(x) = sum;
+    substitute_upper<B>(diagonal[k], x);
+    for (std::size_t c = 0; c < B; ++c) b[4 * k + c] = x[c];
+  }
+}
+
+TENDRIL_LANES bool factor_symmetric(const BlockPattern& p, const Parts<3>& m) {
+  return factor_blocks<3, true>(p, m);
+}
+TENDRIL_LANES bool factor_three(const BlockPattern& p, const Parts<3>& m) {
+  return factor_blocks<3, false>(p, m);
+}
+TENDRIL_LANES bool factor_four(const BlockPattern& p, const Parts<4>& m) {
+  return factor_blocks<4, false>(p, m);
+}
+TENDRIL_LANES void solve_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u, const Block<3>* l,
+                               double* b) {
+  solve_blocks<3>(p, d, u, l, b);
+}
+TENDRIL_LANES void solve_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u, const Block<4>* l,
+                              double* b) {
+  solve_blocks<4>(p, d, u, l, b);
+}
+
+/// to = -(a + s b), of all the numbers of some blocks; without b where it is null.
+TENDRIL_LANES void negate(std::size_t count, const double* __restrict a, double s, const double* __restrict b,
+                          double* __restrict to) {
+  if (!b) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = -a[i];
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) to[i] = -a[i] - s * b[i];
+}
+
+template <int B>
+void negate(const std::vector<Block<B>>& a, double s, const std::vector<Block<B>>* b,
+            std::vector<Block<B>>& to) {
+  if (to.empty()) return;
+  const auto numbers = [](const auto& blocks) { return blocks.front().column.front().data(); };
+  negate(4 * B * to.size(), numbers(a), s, b ? numbers(*b) : nullptr, to.front().column.front().data());
+}
+
+/// y += s A x
+template <int B>
+TENDRIL_INLINE void multiply_add_blocks(const BlockPattern& pattern, const Block<B>* diagonal,
+                                        const Block<B>* upper, const Block<B>* lower, double s,
+                                        const double* x, double* y) {
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    Four sum;
+    apply<B>(diagonal[k], x + 4 * k, sum);
+    at(y + 4 * k) += s * sum;
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+      const std::size_t other = 4 * pattern.later(e);
+      apply<B>(upper[e], x + other, sum);
+      at(y + 4 * k) += s * sum;
+      apply<B>(lower[e], x + 4 * k, sum);
+      at(y + other) += s * sum;
+    }
+  }
+}
+TENDRIL_LANES void multiply_add_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u,
+                                      const Block<3>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<3>(p, d, u, l, s, x, y);
+}
+TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u,
+                                     const Block<4>* l, double s, const double* x, double* y) {
+  multiply_add_blocks<4>(p, d, u, l, s, x, y);
+}
+
+}  // namespace
+
+template <int B>
+void BlockMatrix<B>::set_zero() {
+  for (auto* blocks : {&diagonal_, &upper_, &lower_}) std::fill(blocks->begin(), blocks->end(), Block{});
+}
+
+template <int B>
+typename BlockMatrix<B>::Block* BlockMatrix<B>::find(std::size_t row_node, std::size_t column_node) {
+  const std::size_t row = pattern_->pivot(row_node);
+  const std::size_t column = pattern_->pivot(column_node);
+  if (row == column) return &diagonal_[row];
+  if (row > column && symmetric_) return nullptr;
+  const std::size_t e = pattern_->entry(std::min(row, column), std::max(row, column));
+  if (e == pattern_->entries()) return nullptr;
+  return row < column ? &upper_[e] : &lower_[e];
+}
+
+template <int B>
+void BlockMatrix<B>::set_negative(const BlockMatrix& a, double s, const BlockMatrix* b) {
+  negate<B>(a.diagonal_, s, b ? &b->diagonal_ : nullptr, diagonal_);
+  negate<B>(a.upper_, s, b ? &b->upper_ : nullptr, upper_);
+  if (!symmetric_) negate<B>(a.lower_, s, b ? &b->lower_ : nullptr, lower_);
+}
+
+template <int B>
+void BlockMatrix<B>::release(std::size_t node, std::size_t coordinate) {
+  const std::size_t own = pattern_->pivot(node);
+  const auto clear_row = [&](Block& b) {
+    for (auto& column : b.column) column[coordinate] = 0.0;
+  };
+  const auto clear_column = [&](Block& b) { b.column[coordinate] = {}; };
+  clear_row(diagonal_[own]);
+  clear_column(diagonal_[own]);
+  for (std::size_t e = pattern_->begin(own); e < pattern_->begin(own + 1); ++e) {
+    clear_row(upper_[e]);
+    if (!symmetric_) clear_column(lower_[e]);
+  }
+  for (const std::size_t e : pattern_->earlier(own)) {
+    clear_column(upper_[e]);
+    if (!symmetric_) clear_row(lower_[e]);
+  }
+}
+
+template <int B>
+bool BlockMatrix<B>::factor() {
+  const Parts<B> parts{diagonal_.data(), upper_.data(), lower_.data()};
+  if constexpr (B == 4) return factor_four(*pattern_, parts);
+  if constexpr (B == 3)
+    return symmetric_ ? factor_symmetric(*pattern_, parts) : factor_three(*pattern_, parts);
+}
+
+template <int B>
+void BlockMatrix<B>::solve(double* b) const {
+  if constexpr (B == 4) solve_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+  if constexpr (B == 3) solve_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), b);
+}
+
+template <int B>
+void BlockMatrix<B>::multiply_add(double s, const double* x, double* y) const {
+  if constexpr (B == 4) multiply_add_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+  if constexpr (B == 3)
+    multiply_add_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+}
+
+template class BlockMatrix<3>;
+template class BlockMatrix<4>;
+
+}  // namespace tendril

@@ -1,0 +1,351 @@
+#include "elastic.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "dynamics/vector/column_access.h"
+#include "held.h"
+#include "hinge.h"
+#include "kinematics.h"
+#include "spring_loops.h"
+
+namespace tendril {
+namespace {
+
+using Workspace = System::Workspace;
+using Model = System::Model;
+using Segment = System::Model::Segment;
+using lanes::Reader;
+using lanes::V3;
+using lanes::Writer;
+
+/// What a loop over springs does beside the gradient (viscous, third, energy), and what it takes for granted:
+/// that all are straight at rest, that all angles are small.
+struct Wanted {
+  bool viscous = false, third = false, energy = false, straight = false, near = false;
+};
+
+/// What a loop reads and writes; see bend and twist.
+struct Columns {
+  TENDRIL_INLINE Columns(const Model& model, const State& from, Workspace& work)
+      : k_l(model.bending.k_l.data()),
+        k_m(model.bending.k_m.data()),
+        k_t(model.bending.k_t.data()),
+        rest_l(model.bending.rest_l.data()),
+        rest_m(model.bending.rest_m.data()),
+        rest_t(model.bending.rest_t.data()),
+        viscosity(model.viscosity.data()),
+        k_stretch(model.stretch.data()),
+        rest_length(model.rest_length.data()),
+        k_twist(model.twist.data()),
+        rest_twist(model.rest_twist.data()),
+        reference(from.twist.data()),
+        spin(work.spin.data()),
+        length(work.length.data()),
+        e(work.e),
+        e_rate(work.e_rate),
+        m(work.frame.y),
+        t(work.frame.z),
+        turning(work.turning),
+        g_bend(work.g_bend),
+        twist_tangent(work.twist_tangent),
+        g_length(work.g_length.data()),
+        g_spin(work.g_spin.data()),
+        twist_torque(work.twist_torque.data()),
+        energy(work.energy.data()),
+        heat(work.heat.data()) {}
+
+  const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
+  const double* __restrict k_stretch, * __restrict rest_length, * __restrict k_twist, * __restrict rest_twist, * __restrict reference, * __restrict spin, * __restrict length;
+  const Reader e, e_rate, m, t, turning;
+  const Writer g_bend, twist_tangent;
+  double* __restrict g_length, * __restrict g_spin, * __restrict twist_torque, * __restrict energy, * __restrict heat;
+};
+
+struct Axes {
+  V3 l, m, t;
+};
+
+/// k (angle - rest) / (sin angle cos angle), the third spring's slope over the sine.
+template <Wanted W>
+TENDRIL_INLINE double third_slope(double k, double rest, double across2, double z, double& energy) {
+  if constexpr (W.near) return k * lanes::asin_slope(across2);
+  const double sine = std::sqrt(across2);
+  const double strain = lanes::angle(sine, z) - rest;
+  if constexpr (W.energy) energy += k * strain * strain;
+  // At angle 0 what it is multiplied with is 0.
+  const bool away = sine > 1e-12 && z > 0.0;
+  return away ? k * strain / (away ? sine * z : 1.0) : 0.0;
+}
+
+template <Wanted W>
+TENDRIL_INLINE lanes::Deviation deviation(double x, double y, double z) {
+  if constexpr (W.near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
+  return lanes::deviation(x, std::sqrt(y * y + z * z));
+}
+
+/// Slopes of the two deviations, k (asin x - rest) / cos, with what resists.
+struct Slopes {
+  double l, m;
+};
+template <Wanted W>
+TENDRIL_INLINE Slopes deviation_slopes(const Columns& c, std::size_t i, const Axes& f, double x, double y,
+                                       double z, double& energy, double& heat) {
+  if constexpr (W.near && W.straight)
+    return {x * (c.k_l[i] * lanes::asin_slope(x * x)), y * (c.k_m[i] * lanes::asin_slope(y * y))};
+  const lanes::Deviation l = deviation<W>(x, y, z);
+  const lanes::Deviation m = deviation<W>(y, x, z);
+  const double strain_l = l.angle - c.rest_l[i];
+  const double strain_m = m.angle - c.rest_m[i];
+  double fl = c.k_l[i] * strain_l;
+  double fm = c.k_m[i] * strain_m;
+  if constexpr (W.energy) energy += fl * strain_l + fm * strain_m;
+  if constexpr (W.viscous) {
+    const V3 d_rate = 0.5 * (c.e_rate.at(i) - c.e_rate.at(i - 1));
+    const double l_rate = (lanes::dot(d_rate, f.l) + c.spin[i] * y) * l.inverse_cosine;
+    const double m_rate = (lanes::dot(d_rate, f.m) - c.spin[i] * x) * m.inverse_cosine;
+    heat += 2.0 * c.viscosity[i] * (c.k_l[i] * l_rate * l_rate + c.k_m[i] * m_rate * m_rate);
+    fl += c.viscosity[i] * c.k_l[i] * l_rate;
+    fm += c.viscosity[i] * c.k_m[i] * m_rate;
+  }
+  return {fl * l.inverse_cosine, fm * m.inverse_cosine};
+}
+
+/// Bending at node i. With d half the difference of the unit edges b and a at a free node, x = d.l and y =
+/// d.m are the sines of the deviations of b, those of a with the other sign, and d.t = 0. Both edges
+/// together:
+///   E = k_l (asin x - r_l)^2 + k_m (asin y - r_m)^2 + k_t (asin |d| - r_t)^2.
+/// As d.t = 0, a tangent that turns with its director does not change x and y: dx = l.dd + y ds, dy = m.dd -
+/// x ds. The gradient by b is half that by d, that by a its opposite. False where an angle was not small and
+/// was taken for it.
+template <Wanted W>
+TENDRIL_INLINE bool bend(const Columns& c, std::size_t i, const Axes& f, double& energy, double& heat) {
+  const V3 a = c.e.at(i - 1);
+  const V3 b = c.e.at(i);
+  const V3 d = 0.5 * (b - a);
+  const double x = lanes::dot(d, f.l);
+  const double y = lanes::dot(d, f.m);
+  const double z = W.near ? 1.0 : 0.5 * lanes::dot(a + b, f.t);
+  const double across2 = x * x + y * y;
+  Slopes g = deviation_slopes<W>(c, i, f, x, y, z, energy, heat);
+  c.g_spin[i] = 2.0 * (g.l * y - g.m * x);
+  bool straight = true;
+  if constexpr (W.third) {
+    const double rest = W.straight ? 0.0 : c.rest_t[i];
+    const double k = third_slope<W>(c.k_t[i], rest, across2, z, energy);
+    g.l += k * x;
+    g.m += k * y;
+    straight = rest == 0.0;
+  }
+  c.g_bend.put(i, g.l * f.l + g.m * f.m);
+  const bool near = (across2 <= lanes::kNearSquare) & straight;
+  return near | (c.k_l[i] + c.k_m[i] + c.k_t[i] == 0.0);
+}
+
+/// The twist spring of edge i, at tau from its rest: the angle about t_a from m_a to m_b, carried there by
+/// the smallest rotation of the tangents. d tau = s_b - s_a + q.(dt_a + dt_b), q = (t_a x t_b) / (1 +
+/// t_a.t_b): what that rotation turns by itself.
+template <Wanted W>
+TENDRIL_INLINE bool twist(const Columns& c, std::size_t i, const Axes& f, double& energy, double& heat) {
+  const V3 tb = c.t.at(i + 1);
+  const V3 mb = c.m.at(i + 1);
+  const double spread = 1.0 + lanes::dot(f.t, tb);
+  const double s = 1.0 / spread;
+  const double back = lanes::dot(f.t, mb) * s;
+  const double sine = back * lanes::dot(f.l, tb) - lanes::dot(f.l, mb);
+  const double along = lanes::dot(f.m, mb);
+  const double raw =
+      W.near ? sine * lanes::asin_ratio(sine * sine) : lanes::angle(sine, along - back * lanes::dot(f.m, tb));
+  const double tau = c.reference[i] + lanes::less_turns(raw - c.reference[i]);
+  const double strain = tau - c.rest_twist[i];
+  double torque = c.k_twist[i] * strain;
+  if constexpr (W.energy) energy += 0.5 * torque * strain;
+  if constexpr (W.viscous) {
+    // q.(t_a' + t_b'), with t' = (t x t') x t.
+    const double rotating = s * (lanes::dot(f.t, c.turning.at(i + 1)) - lanes::dot(tb, c.turning.at(i)));
+    const double rate = c.spin[i + 1] - c.spin[i] + rotating;
+    const double resistance = c.viscosity[i] * c.k_twist[i] * rate;
+    heat += resistance * rate;
+    torque += resistance;
+  }
+  c.twist_torque[i] = torque;
+  c.twist_tangent.put(i, (torque * s) * lanes::cross(f.t, tb));
+  // Between tangents less than 41 degrees apart the directors tell an angle near 0 from one near a half turn.
+  const bool near = (sine * sine <= lanes::kNearSquare) & (spread >= 1.75) & (along > 0.0);
+  return near | (c.k_twist[i] == 0.0);
+}
+
+/// Stretch of edge i.
+template <Wanted W>
+TENDRIL_INLINE void stretch(const Columns& c, std::size_t i, double& energy) {
+  const double strain = c.length[i] - c.rest_length[i];
+  c.g_length[i] = c.k_stretch[i] * strain;
+  if constexpr (W.energy) energy += 0.5 * c.g_length[i] * strain;
+}
+
+/// Bending of nodes [first, end), stretch and twist of the edges that begin there.
+template <Wanted W>
+TENDRIL_INLINE bool strain(const Model& model, const State& from, std::size_t first, std::size_t end,
+                           Workspace& work) {
+  const Columns c(model, from, work);
+  std::int64_t far = 0;
+  TENDRIL_LOOP
+  for (std::size_t i = first; i < end; ++i) {
+    const V3 m = c.m.at(i);
+    const V3 t = c.t.at(i);
+    const Axes f{lanes::cross(m, t), m, t};
+    double energy = 0.0;
+    double heat = 0.0;
+    stretch<W>(c, i, energy);
+    const bool bent_near = bend<W>(c, i, f, energy, heat);
+    const bool twisted_near = twist<W>(c, i, f, energy, heat);
+    far |= (bent_near & twisted_near) ? 0 : 1;
+    if constexpr (W.energy) c.energy[i] = energy;
+    if constexpr (W.viscous) c.heat[i] = heat;
+  }
+  return !W.near || far == 0;
+}
+
+TENDRIL_LANES bool plain_near(const Model& model, const State& from, std::size_t first, std::size_t end,
+                              Workspace& work) {
+  return strain<Wanted{.near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool plain_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                  Workspace& work) {
+  return strain<Wanted{.straight = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool plain_far(const Model& model, const State& from, std::size_t first, std::size_t end,
+                             Workspace& work) {
+  return strain<Wanted{}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool thrice_near(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.third = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool thrice_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                   Workspace& work) {
+  return strain<Wanted{.third = true, .straight = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool thrice_far(const Model& model, const State& from, std::size_t first, std::size_t end,
+                              Workspace& work) {
+  return strain<Wanted{.third = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool viscous_near(const Model& model, const State& from, std::size_t first, std::size_t end,
+                                Workspace& work) {
+  return strain<Wanted{.viscous = true, .third = true, .near = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool viscous_far(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.viscous = true, .third = true}>(model, from, first, end, work);
+}
+TENDRIL_LANES bool with_energy(const Model& model, const State& from, std::size_t first, std::size_t end,
+                               Workspace& work) {
+  return strain<Wanted{.third = true, .energy = true}>(model, from, first, end, work);
+}
+
+Loops loops_of(const Segment& segment, bool viscous) {
+  if (viscous) return {viscous_near, viscous_far};
+  if (segment.third) return {segment.straight ? thrice_straight : thrice_near, thrice_far};
+  return {segment.straight ? plain_straight : plain_near, plain_far};
+}
+
+/// What the twist springs give the nodes, and the gyroscopic force of their spin: -I w t x t' by the tangent.
+template <bool Gyroscopic>
+TENDRIL_INLINE void gather(const Model& model, const Segment& segment, Workspace& work) {
+  const Reader from(work.twist_tangent), turning(work.turning);
+  const Writer to(work.g_tangent);
+  const double *__restrict torque = work.twist_torque.data(), *__restrict spin = work.spin.data(),
+               *__restrict inertia = model.free_inertia.data();
+  double* __restrict to_spin = work.g_spin.data();
+  TENDRIL_LOOP
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    V3 g = from.at(i - 1) + from.at(i);
+    if constexpr (Gyroscopic) g = g - (inertia[i] * spin[i]) * turning.at(i);
+    to.put(i, g);
+    to_spin[i] += torque[i - 1] - torque[i];
+  }
+}
+TENDRIL_LANES void gather_springs(const Model& model, const Segment& segment, Workspace& work) {
+  gather<false>(model, segment, work);
+}
+TENDRIL_LANES void gather_all(const Model& model, const Segment& segment, Workspace& work) {
+  gather<true>(model, segment, work);
+}
+
+double sum_of(const Column& column, const Segment& segment) {
+  double sum = 0.0;
+  for (std::size_t i = segment.first; i < segment.end; ++i) sum += column[i];
+  return sum;
+}
+
+/// What the loops left where no edge is must not reach the next rod's first node.
+void clear_ends(const Model& model, Workspace& work) {
+  for (const NodeRange& rod : model.rods) {
+    const std::size_t last = rod.first + rod.count - 1;
+    work.twist_tangent.set(last, Vec3::Zero());
+    work.twist_torque[last] = 0.0;
+    work.energy[last] = 0.0;
+    work.heat[last] = 0.0;
+  }
+}
+
+double resist_stretch(const Model& model, const Segment& segment, Workspace& work) {
+  double heat = 0.0;
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    const double resistance = model.viscosity[i] * model.stretch[i] * work.length_rate[i];
+    heat += resistance * work.length_rate[i];
+    work.g_length[i] += resistance;
+  }
+  return heat;
+}
+
+}  // namespace
+
+Evaluation elastic(const Model& model, const State& reference, Inner inner, Workspace& work, double& heat) {
+  heat = 0.0;
+  for (const Segment& s : model.segments) {
+    if (s.twist)
+      run(loops_of(s, inner.viscous && s.viscous), model, reference, s, work);
+    else if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok())
+      return at;
+  }
+  clear_ends(model, work);
+  for (const Segment& s : model.segments) {
+    if (inner.viscous && s.viscous) heat += resist_stretch(model, s, work) + sum_of(work.heat, s);
+    if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
+  }
+  for (const std::size_t node : model.bending.held)
+    bend_at_held_frame(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
+  for (const std::size_t node : model.bending.held_hinges) bend_at_held_hinge(model, node, work);
+  return {};
+}
+
+Evaluation elastic_energy(const Model& model, const State& reference, Workspace& work, double& energy) {
+  for (const Segment& s : model.segments) {
+    if (s.twist)
+      with_energy(model, reference, s.first, s.end, work);
+    else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok())
+      return at;
+  }
+  clear_ends(model, work);
+  energy = 0.0;
+  for (const Segment& s : model.segments) {
+    energy += sum_of(work.energy, s);
+    if (s.twist) gather_springs(model, s, work);
+  }
+  double none = 0.0;
+  for (const std::size_t node : model.bending.held)
+    energy += bend_at_held_frame(model, node, false, work, none);
+  for (const std::size_t node : model.bending.held_hinges) energy += bend_at_held_hinge(model, node, work);
+  return {};
+}
+
+void relax(const Model& model, bool gyroscopic, Workspace& work) {
+  for (auto* vectors : {&work.g_bend, &work.g_before, &work.g_after, &work.g_tangent, &work.twist_tangent})
+    vectors->set_zero();
+  for (auto* numbers : {&work.g_length, &work.g_spin, &work.twist_torque}) numbers->set_zero();
+  for (const Segment& s : model.segments)
+    if (s.twist && gyroscopic) gather_all(model, s, work);
+}
+
+}  // namespace tendril

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "workspace.h"
+
+namespace tendril {
+
+/// What acts beside the elastic springs: with `viscous` every spring but the third on strain + beta strain';
+/// the gyroscopic force of the spins, through the tangents. Both need rates.
+struct Inner {
+  bool viscous, gyroscopic;
+};
+
+/// Gradient of the elastic energy at the kinematics. Fails where two edges fold back on each other.
+/// \param heat  power turned into heat, when viscous
+Evaluation elastic(const System::Model& model, const State& reference, Inner inner, System::Workspace& work,
+                   double& heat);
+
+/// The elastic energy with its gradient.
+Evaluation elastic_energy(const System::Model& model, const State& reference, System::Workspace& work,
+                          double& energy);
+
+/// The gradient of no springs at all.
+void relax(const System::Model& model, bool gyroscopic, System::Workspace& work);
+
+}  // namespace tendril

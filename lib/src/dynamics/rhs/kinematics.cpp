@@ -1,0 +1,259 @@
+#include "kinematics.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "dynamics/vector/column_access.h"
+#include "dynamics/vector/finite.h"
+
+namespace tendril {
+namespace {
+
+using Outcome = Evaluation::Outcome;
+using Workspace = System::Workspace;
+using Model = System::Model;
+using lanes::Reader;
+using lanes::V3;
+using lanes::Writer;
+
+/// Components of vectors that stand one after the other, into columns.
+TENDRIL_LANES void take_apart(const double* from, std::size_t count, Columns3& to) {
+  double* __restrict x = to.x.data();
+  double* __restrict y = to.y.data();
+  double* __restrict z = to.z.data();
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < count; ++i) {
+    x[i] = from[3 * i];
+    y[i] = from[3 * i + 1];
+    z[i] = from[3 * i + 2];
+  }
+}
+
+/// Lengths and directions of edges [first, end), and their rates; true when one has no direction.
+template <bool Rates>
+TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Workspace& work) {
+  const Reader p(work.p), v(work.v);
+  const Writer to(work.e), rate(work.e_rate);
+  double *__restrict length = work.length.data(), *__restrict inverse = work.inverse_length.data(),
+         *__restrict length_rate = work.length_rate.data();
+  std::int64_t bad = 0;
+  TENDRIL_LOOP
+  for (std::size_t i = first; i < end; ++i) {
+    const V3 d = p.at(i + 1) - p.at(i);
+    const double l = std::sqrt(lanes::dot(d, d));
+    const double s = 1.0 / l;
+    const V3 e = s * d;
+    length[i] = l;
+    inverse[i] = s;
+    to.put(i, e);
+    bad |= l > 0.0 && l < 1e300 ? 0 : 1;
+    if constexpr (Rates) {
+      const V3 apart = v.at(i + 1) - v.at(i);
+      const double along = lanes::dot(e, apart);
+      length_rate[i] = along;
+      rate.put(i, s * (apart - along * e));
+    }
+  }
+  return bad != 0;
+}
+TENDRIL_LANES bool measure_places(std::size_t first, std::size_t end, Workspace& work) {
+  return measure<false>(first, end, work);
+}
+TENDRIL_LANES bool measure_all(std::size_t first, std::size_t end, Workspace& work) {
+  return measure<true>(first, end, work);
+}
+
+/// Where the reference directors are, what turns them, and where the nodes [first, end) stand in it.
+struct Carried {
+  const double* __restrict tangent;   ///< of the reference, three numbers a node
+  const double* __restrict director;  ///< likewise
+  const double* __restrict theta;     ///< of the nodes from `first` on
+};
+
+/// Tangents of nodes [first, end) from their edges (2.7, normalised), with rates; true when the edges of one
+/// fold back. Directors of nodes with twist: the reference carried to the tangent by the smallest rotation,
+/// turned by theta; with rates, also what the carried director turns by itself,
+/// ((t_s x t) . t') / (1 + t_s . t) = t_s . (t x t') / (1 + t_s . t). True, too, when a tangent turned too
+/// far for that.
+template <bool Rates, bool Twist, bool Near>
+TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  const Reader e(work.e), e_rate(work.e_rate);
+  const Writer to_t(work.frame.z), to_turning(work.turning), to_m(work.frame.y);
+  double* __restrict inverse = work.inverse_bisector.data(), * __restrict connection = work.connection.data();
+  std::int64_t bad = 0;
+  TENDRIL_LOOP
+  for (std::size_t i = first; i < end; ++i) {
+    const V3 sum = e.at(i - 1) + e.at(i);
+    const double length = std::sqrt(lanes::dot(sum, sum));
+    const double b = 1.0 / length;
+    const V3 t = b * sum;
+    V3 turning{};
+    const bool folded = !(length >= kFoldBack);
+    inverse[i] = folded ? 0.0 : b;
+    to_t.put(i, t);
+    if constexpr (Rates) {
+      turning = lanes::cross(t, b * (e_rate.at(i - 1) + e_rate.at(i)));
+      to_turning.put(i, turning);
+    }
+    bad |= folded ? 1 : 0;
+    if constexpr (!Twist) continue;
+    const V3 f{from.tangent[3 * i], from.tangent[3 * i + 1], from.tangent[3 * i + 2]};
+    const V3 d{from.director[3 * i], from.director[3 * i + 1], from.director[3 * i + 2]};
+    const double c = 1.0 + lanes::dot(f, t);
+    const double s = 1.0 / c;
+    const V3 carried = d - (lanes::dot(t, d) * s) * (f + t);
+    const V3 beside = lanes::cross(t, carried);
+    const double theta = from.theta[i - first];
+    const lanes::SineCosine turn = Near ? lanes::near_sine_cosine(theta) : lanes::sine_cosine(theta);
+    to_m.put(i, turn.cosine * carried + turn.sine * beside);
+    if constexpr (Rates) connection[i] = s * lanes::dot(f, turning);
+    // Within a step no tangent turns further than 126 degrees: a longer way could take the wrong side.
+    bad |= c > kTurnedTooFar ? 0 : 1;
+  }
+  return bad != 0;
+}
+
+TENDRIL_LANES bool direct_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<false, true, false>(first, end, from, work);
+}
+TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, false>(first, end, from, work);
+}
+TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, true, true>(first, end, from, work);
+}
+TENDRIL_LANES bool bisect_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<false, false, false>(first, end, from, work);
+}
+TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return direct<true, false, false>(first, end, from, work);
+}
+
+/// Whether all are at most kNearTurn.
+TENDRIL_LANES bool turned_little(const double* theta, std::size_t count) {
+  std::int64_t far = 0;
+  for (std::size_t i = 0; i < count; ++i) far |= std::fabs(theta[i]) <= lanes::kNearTurn ? 0 : 1;
+  return far == 0;
+}
+
+bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+  return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, work);
+}
+
+void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
+  take_apart(y.data(), model.nodes, work.p);
+  take_apart(y.data() + model.v_begin(), model.nodes, work.v);
+  for (std::size_t a = 0; a < model.anchors.size(); ++a) {
+    const Anchor& anchor = model.anchors[a];
+    const std::size_t i = model.rods[anchor.rod].first + anchor.node;
+    work.pose[a] = anchor.motion
+                       ? anchor.motion(t)
+                       : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
+    if (!anchor.holds_position) continue;
+    work.p.set(i, work.pose[a].position);
+    work.v.set(i, work.pose[a].velocity);
+  }
+  for (const System::Model::Ride& ride : model.rides) {
+    work.p.set(ride.root, work.p[ride.parent]);
+    work.v.set(ride.root, work.v[ride.parent]);
+  }
+}
+
+/// The root of a child rod takes its frame from the node it rides on, which is known by then.
+void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
+  const std::size_t i = ride.root;
+  const Frame f = work.frame[ride.parent];
+  const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
+  const Frame frame{outside(ride.rest.x), outside(ride.rest.y), outside(ride.rest.z)};
+  work.frame.set(i, frame);
+  work.inverse_bisector[i] = 0.0;
+  work.connection[i] = 0.0;
+  if (!rates) return;
+  const Vec3 turning = Vec3(work.turning[ride.parent]) + work.spin[ride.parent] * f.z;
+  work.spin[i] = turning.dot(frame.z);
+  work.turning.set(i, turning - work.spin[i] * frame.z);
+}
+
+void take_held_frames(const Model& model, Workspace& work) {
+  for (std::size_t a = 0; a < model.anchors.size(); ++a) {
+    const Anchor& anchor = model.anchors[a];
+    if (!anchor.holds_frame) continue;
+    const std::size_t i = model.rods[anchor.rod].first + anchor.node;
+    const AnchorPose& pose = work.pose[a];
+    work.frame.set(i, pose.frame);
+    work.spin[i] = pose.angular_velocity.dot(pose.frame.z);
+    work.turning.set(i, pose.angular_velocity - work.spin[i] * pose.frame.z);
+    work.inverse_bisector[i] = 0.0;
+    work.connection[i] = 0.0;
+  }
+}
+
+void clear_ends(const Model& model, Workspace& work) {
+  for (const NodeRange& rod : model.rods) {
+    const std::size_t last = rod.first + rod.count - 1;
+    work.e.set(last, Vec3::Zero());
+    work.e_rate.set(last, Vec3::Zero());
+    work.length[last] = work.inverse_length[last] = work.length_rate[last] = 0.0;
+  }
+}
+
+Evaluation find_bad_edge(const Model& model, const Workspace& work) {
+  for (const NodeRange& rod : model.rods)
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
+      if (!std::isfinite(work.length[i])) return {Outcome::not_finite, i};
+      if (!(work.length[i] > 0.0)) return {Outcome::zero_edge, i};
+    }
+  return {};
+}
+
+Evaluation find_bad_tangent(const Model& model, const State& reference, const System::Model::Segment& segment,
+                            const Workspace& work) {
+  for (std::size_t i = segment.first; i < segment.end; ++i) {
+    if (model.holds_frame(i)) continue;
+    if (work.inverse_bisector[i] == 0.0) return {Outcome::fold_back, i};
+    if (segment.twist && !(1.0 + reference.tangent[i].dot(work.frame.z[i]) > kTurnedTooFar))
+      return {Outcome::turned_too_far, i};
+  }
+  return {};
+}
+
+const double* numbers(const std::vector<Vec3>& v) {
+  return v.empty() ? nullptr : v.front().data();
+}
+
+Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y, Motion what,
+                       Workspace& work) {
+  for (const System::Model::Segment& s : model.segments) {
+    if (!s.twist && what == Motion::springs) continue;
+    const bool places = what == Motion::places;
+    Carried from{};
+    if (s.twist) {
+      const Eigen::Index k = model.twist_index[s.first];
+      from = {numbers(reference.tangent), numbers(reference.director), y.data() + model.theta_begin() + k};
+      const double* spin = y.data() + model.spin_begin() + k;
+      std::copy(spin, spin + (s.end - s.first), &work.spin[s.first]);
+    }
+    const auto fill = s.twist ? (places ? direct_places : direct_all) : (places ? bisect_places : bisect_all);
+    const bool bad = fill(s.first, s.end, from, work);
+    if (!bad) continue;
+    if (const Evaluation at = find_bad_tangent(model, reference, s, work); !at.ok()) return at;
+  }
+  take_held_frames(model, work);
+  for (const System::Model::Ride& ride : model.rides) take_ride(ride, what != Motion::places, work);
+  return {};
+}
+
+}  // namespace
+
+Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                      Motion what, Workspace& work) {
+  if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
+  place_nodes(model, t, y, work);
+  const bool bad = (what == Motion::places ? measure_places : measure_all)(0, model.nodes, work);
+  clear_ends(model, work);
+  if (bad)
+    if (const Evaluation at = find_bad_edge(model, work); !at.ok()) return at;
+  return take_frames(model, reference, y, what, work);
+}
+
+}  // namespace tendril

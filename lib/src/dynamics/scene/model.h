@@ -1,0 +1,129 @@
+#pragma once
+
+#include <tendril/dynamics/system.h>
+
+#include <vector>
+
+#include "dynamics/vector/columns.h"
+
+namespace tendril {
+
+/// A scene on flat arrays. Arrays per edge have an entry per node; that of a rod's last node is not used, so
+/// that edge i always joins the nodes i and i + 1.
+struct System::Model {
+  Model(Scene description, double since);
+
+  Scene scene;
+  double from;                  ///< the time from which this holds
+  std::vector<Anchor> anchors;  ///< those of the scene that have not let go by then
+  std::vector<NodeRange> rods;
+  std::vector<std::size_t> order;  ///< of the rods, parents before their children
+  std::vector<std::size_t> seed;  ///< per rod, the node that its directors follow where it has no twist state
+  std::vector<std::string> left_out;
+  std::size_t nodes = 0;
+  std::size_t twist_nodes = 0;
+
+  // Per node.
+  std::vector<Vec3> rest_p;
+  std::vector<Frame> rest_frame;
+  std::vector<double> mass, inertia, bend_l, bend_m, bend_t;
+  std::vector<double> damping;
+  std::vector<double> moved_mass;               ///< mass with that of the roots merged into the node
+  std::vector<Vec3> offset;                     ///< (0, r a, r b): q - p in the rest node frame
+  std::vector<int> twist_index;                 ///< place among the twist states, -1 where left out
+  std::vector<char> anchored;                   ///< named by an anchor of the scene
+  std::vector<char> held_position, held_frame;  ///< by an anchor, or by riding on a parent
+  std::vector<char> begins, ends;               ///< a rod
+  Column inverse_mass;                          ///< of what moves with the node; 0 where it is held
+  Column inverse_inertia;                       ///< 0 where the frame is held, and without twist
+  Column free_inertia;                          ///< likewise
+  Column damped_mass, damped_inertia;           ///< times the damping; 0 where held
+  std::vector<std::size_t> held_positions;      ///< by node
+  /// Held nodes, but for those that pass what they feel to the node they ride on.
+  std::vector<std::size_t> driven_positions, driven_frames;
+
+  /// A child's root: where it rides, and its rest frame in its parent's (coordinates of l, m, t).
+  struct Ride {
+    std::size_t root, parent;  ///< flat nodes
+    Frame rest;
+    bool reaction;
+  };
+  std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
+  std::vector<Ride> rides;      ///< parents before their children
+  /// Per node: the node that its place and frame move with (itself where it rides on none), and whether that
+  /// one feels it.
+  std::vector<std::size_t> carrier;
+  std::vector<char> feels;
+
+  /// Neighbouring rods with the same kind of springs, as one range of nodes [first, end).
+  struct Segment {
+    std::size_t first, end;
+    bool twist;     ///< has the twist state
+    bool third;     ///< has springs on the angle to the tangent
+    bool straight;  ///< at rest
+    bool viscous;   ///< some spring resists
+  };
+  std::vector<Segment> segments;
+
+  /// The bending springs once more, as loops over nodes read them. At a free node with two edges a and b the
+  /// tangent halves the angle between them: in its frame b deviates by as much as a does, the other way.
+  /// Springs and rest angles are those of b; where there are not two edges, or the frame is held, all are 0.
+  struct Bending {
+    Column k_l, k_m, k_t, rest_l, rest_m, rest_t;
+    Column hinge;                          ///< of a rod without twist
+    std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
+    std::vector<std::size_t> held;         ///< nodes with a held frame of rods with twist
+  };
+  Bending bending;
+
+  Vec3 gravity = Vec3::Zero();  ///< of all forces that are nothing else
+  bool loaded = false;          ///< there are forces beside gravity
+  bool damped = false;          ///< some rod has mass damping
+
+  // Per edge, and per edge and end (2 i at node i, 2 i + 1 at node i + 1).
+  std::vector<double> stretch, twist, width, viscosity, rest_length, rest_twist;
+  std::vector<double> rest_l, rest_m, rest_t;
+
+  bool has_twist(std::size_t node) const { return twist_index[node] >= 0; }
+  bool holds_position(std::size_t node) const { return held_position[node] != 0; }
+  bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
+  bool has_before(std::size_t node) const { return begins[node] == 0; }
+  bool has_after(std::size_t node) const { return ends[node] == 0; }
+  const Ride* ride_of(std::size_t rod) const {
+    return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
+  }
+
+  // Where the parts of y begin.
+  Eigen::Index v_begin() const { return 3 * static_cast<Eigen::Index>(nodes); }
+  Eigen::Index theta_begin() const { return 6 * static_cast<Eigen::Index>(nodes); }
+  Eigen::Index spin_begin() const { return theta_begin() + static_cast<Eigen::Index>(twist_nodes); }
+  Eigen::Index work_index() const { return spin_begin() + static_cast<Eigen::Index>(twist_nodes); }
+  Eigen::Index size() const { return work_index() + 1; }
+
+ private:
+  void flatten(const Rod& rod);
+  void flatten_rest_angles(const NodeRange& range);
+  void place_anchors();
+  void place_joints();
+  void sort_rods();
+  void choose_twist();
+  void choose_forces();
+  void lay_out_springs();
+  void lay_out_bending(std::size_t node);
+  std::string twist_source(std::size_t rod) const;
+};
+
+/// Angles of a unit edge against a node frame, as the bending springs see them.
+struct EdgeAngles {
+  double x, y, z;  ///< e.l, e.m, e.t
+  double cl, cm,
+      st;  ///< cosines of the two deviations, sine of the angle to t; from components, never from 1 - x^2
+  double l, m, t;  ///< asin(x), asin(y), angle to t
+};
+EdgeAngles edge_angles(const Vec3& e, const Frame& frame);
+
+/// Signed angle about `after.z` from before.y, carried to after.z by the smallest rotation, to after.y; in
+/// (-pi, pi].
+double twist_angle(const Frame& before, const Frame& after);
+
+}  // namespace tendril

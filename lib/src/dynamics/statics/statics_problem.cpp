@@ -1,0 +1,154 @@
+#include "statics_problem.h"
+
+#include <tendril/dynamics/stiffness.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/scene/model.h"
+
+namespace tendril {
+
+StaticProblem::StaticProblem(const System& system)
+    : system_(system),
+      work_(system.make_workspace()),
+      coordinates_(system),
+      loads_(system, coordinates_),
+      conservative_(loads_.conservative()) {
+  for (const Joint& joint : system.scene().joints) conservative_ = conservative_ && joint.reaction;
+  // With what has let go, so that the state is laid out alike.
+  Scene turning = system.scene();
+  bool any = false;
+  for (Anchor& anchor : turning.anchors) {
+    if (!anchor.motion) continue;
+    any = true;
+    anchor.motion = [motion = anchor.motion, clock = clock_](double time) {
+      AnchorPose pose = motion(time);
+      pose.position = motion(*clock).position;
+      return pose;
+    };
+  }
+  if (!any) return;
+  turning_.emplace(std::move(turning), system.model().from);
+  turning_work_ = turning_->make_workspace();
+}
+
+Evaluation StaticProblem::settle(Poise& at) {
+  if (const Evaluation e = system_.rebase(at.state, *work_); !e.ok()) return e;
+  coordinates_.stop(at.state);
+  if (const Evaluation e =
+          system_.elastic_gradient(at.state, at.state.time, at.state.y, at.elastic, at.gradient, *work_);
+      !e.ok())
+    return e;
+  if (const Evaluation e = loads_.add(at.state, at.loads, at.potential, *work_); !e.ok()) return e;
+  at.residual.resize(size());
+  for (Eigen::Index k = 0; k < size(); ++k)
+    at.residual[k] = at.gradient[coordinates_.in_gradient(k)] - at.load * at.loads[k];
+  if (std::isfinite(at.energy()) && at.residual.allFinite()) return {};
+  return {Evaluation::Outcome::not_finite, 0};
+}
+
+Evaluation StaticProblem::move(const Poise& from, const Eigen::VectorXd& x, double time, double load,
+                               Poise& to) {
+  to.state = from.state;
+  to.load = load;
+  coordinates_.displace(to.state, x, time);
+  return settle(to);
+}
+
+/// Positions of moving anchors go by the columns of the Hessian: differences of a stiff rod's forces would
+/// drown in rounding. Their frames go by differences, at positions that stay, where the tensions cancel.
+Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time, Eigen::VectorXd& rate) {
+  rate = -by_load * at.loads;
+  if (by_time == 0.0) return {};
+  const double share = 1e-6;
+  State there = at.state;
+  there.time += share * by_time;
+  double energy = 0.0;
+  Eigen::VectorXd before, after, loads;
+  *clock_ = at.state.time;
+  const auto bent = [&](double time, Eigen::VectorXd& gradient) {
+    return turning_ ? turning_->elastic_gradient(at.state, time, at.state.y, energy, gradient, *turning_work_)
+                    : system_.elastic_gradient(at.state, at.state.time, at.state.y, energy, gradient, *work_);
+  };
+  if (const Evaluation e = bent(at.state.time, before); !e.ok()) return e;
+  if (const Evaluation e = bent(there.time, after); !e.ok()) return e;
+  if (const Evaluation e = loads_.add(there, loads, energy, *work_); !e.ok()) return e;
+  for (const Anchor& anchor : system_.model().anchors) {
+    if (!anchor.motion || !anchor.holds_position || elastic_.cols() != at.gradient.size()) continue;
+    const auto node = static_cast<Eigen::Index>(system_.rods()[anchor.rod].first + anchor.node);
+    const Vec3 move = anchor.motion(there.time).position - anchor.motion(at.state.time).position;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) after += move[axis] * elastic_.col(3 * node + axis);
+  }
+  for (Eigen::Index k = 0; k < size(); ++k) {
+    const Eigen::Index g = coordinates_.in_gradient(k);
+    rate[k] += (after[g] - before[g] - at.load * (loads[k] - at.loads[k])) / share;
+  }
+  return {};
+}
+
+Evaluation StaticProblem::tangent(const Poise& at, Eigen::SparseMatrix<double>& k) {
+  Eigen::SparseMatrix<double>& elastic = elastic_;
+  if (const Evaluation e = elastic_stiffness(system_, at.state, elastic, *work_); !e.ok()) return e;
+  std::vector<std::pair<Eigen::Index, double>> column;
+  k.resize(size(), size());
+  k.setZero();
+  k.reserve(conservative_ ? elastic.nonZeros() * 11 / 20 + size() : elastic.nonZeros());
+  for (Eigen::Index c = 0; c < size(); ++c) {
+    column.clear();
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(elastic, coordinates_.in_gradient(c)); entry;
+         ++entry)
+      if (const Eigen::Index r = coordinates_.row_of(entry.row()); r >= (conservative_ ? c : 0))
+        column.emplace_back(r, entry.value());
+    std::sort(column.begin(), column.end());
+    k.startVec(c);
+    for (const auto& [r, value] : column) k.insertBack(r, c) = value;
+  }
+  k.finalize();
+  if (!loads_.depends_on_state() || at.load == 0.0) return {};
+  std::vector<Eigen::Triplet<double>> triplets;
+  if (const Evaluation e = loads_.differentiate(at.state, elastic, triplets, *work_); !e.ok()) return e;
+  Eigen::SparseMatrix<double> by_loads(size(), size());
+  by_loads.setFromTriplets(triplets.begin(), triplets.end());
+  if (conservative_)
+    k -= Eigen::SparseMatrix<double>((at.load * by_loads).triangularView<Eigen::Lower>());
+  else
+    k -= at.load * by_loads;
+  return {};
+}
+
+double StaticProblem::largest(const Eigen::VectorXd& residual) const {
+  double most = 0.0;
+  for (Eigen::Index k = 0; k < size(); ++k)
+    most = std::max(most, std::abs(residual[k]) / (coordinates_.axis(k) == 3 ? coordinates_.length() : 1.0));
+  return most;
+}
+
+double StaticProblem::force_scale(const Poise& at) {
+  const double length = coordinates_.length();
+  Poise again = at;
+  double unused = 0.0;
+  double scale = coordinates_.energy_scale() / length;
+  if (loads_.add(again.state, again.loads, unused, *work_).ok())
+    scale = std::max(scale, at.load * loads_.sum());
+  for (std::size_t i = 0; i < system_.node_count(); ++i)
+    if (coordinates_.holds_position(i))
+      scale = std::max(scale, at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i)).norm());
+  return scale;
+}
+
+std::vector<Vec3> StaticProblem::support(const Poise& at) {
+  Eigen::VectorXd loads;
+  double unused = 0.0;
+  std::vector<Vec3> support;
+  if (!loads_.add(at.state, loads, unused, *work_).ok()) return support;
+  for (const Anchor& anchor : system_.scene().anchors) {
+    const std::size_t i = system_.rods()[anchor.rod].first + anchor.node;
+    const Vec3 elastic = at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i));
+    const Vec3 load = loads_.any() ? Vec3(at.load * loads_.force()[i]) : Vec3(Vec3::Zero());
+    support.push_back(anchor.holds_position ? Vec3(elastic - load) : Vec3(Vec3::Zero()));
+  }
+  return support;
+}
+
+}  // namespace tendril

@@ -1,0 +1,51 @@
+#include <tendril/dynamics/stiffness.h>
+
+#include "stiffness_elements.h"
+
+namespace tendril {
+namespace {
+
+/// Gathers entries in the order of System::elastic_gradient.
+struct Triplets {
+  explicit Triplets(const System::Model& m) : model(m) { entries.reserve(196 * m.nodes); }
+
+  void block(std::size_t row, std::size_t column, const Mat3& k) {
+    for (Eigen::Index r = 0; r < 3; ++r)
+      for (Eigen::Index c = 0; c < 3; ++c) entries.emplace_back(place(row) + r, place(column) + c, k(r, c));
+  }
+  void column(std::size_t row, std::size_t node, const Vec3& k) {
+    for (Eigen::Index r = 0; r < 3; ++r) entries.emplace_back(place(row) + r, angle(node), k[r]);
+  }
+  void row(std::size_t node, std::size_t column, const Vec3& k) {
+    for (Eigen::Index c = 0; c < 3; ++c) entries.emplace_back(angle(node), place(column) + c, k[c]);
+  }
+  void angles(std::size_t row, std::size_t column, double k) {
+    entries.emplace_back(angle(row), angle(column), k);
+  }
+
+  const System::Model& model;
+  std::vector<Eigen::Triplet<double>> entries;
+
+ private:
+  static Eigen::Index place(std::size_t node) { return 3 * static_cast<Eigen::Index>(node); }
+  Eigen::Index angle(std::size_t node) const { return model.v_begin() + model.twist_index[node]; }
+};
+
+}  // namespace
+
+Evaluation elastic_stiffness(const System& system, const State& state, Eigen::SparseMatrix<double>& stiffness,
+                             System::Workspace& work) {
+  const System::Model& model = system.model();
+  double energy = 0.0;
+  Eigen::VectorXd gradient;
+  if (const Evaluation at = system.elastic_gradient(state, state.time, state.y, energy, gradient, work);
+      !at.ok())
+    return at;
+  Triplets triplets(model);
+  visit_stiffness(model, state, work, false, 1.0, triplets);
+  stiffness.resize(gradient.size(), gradient.size());
+  stiffness.setFromTriplets(triplets.entries.begin(), triplets.entries.end());
+  return {};
+}
+
+}  // namespace tendril

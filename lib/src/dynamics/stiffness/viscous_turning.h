@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "dynamics/rhs/kinematics.h"
+#include "stiffness_elements.h"
+
+namespace tendril {
+
+/// The derivative of the viscous forces by the coordinates at fixed velocities, as far as it is not that of
+/// the slopes (edge_stiffness counts those): a spring resists with -k beta q' grad q, and q' = grad q . x'
+/// changes as the rod turns. Left out, implicit steps of stiff viscous rods are drawn off their way: hundreds
+/// of times as many are needed. How fast grad q turns is taken by a central difference along the motion.
+class ViscousTurning {
+ public:
+  explicit ViscousTurning(const System::Model& model) : model_(model) {
+    for (auto& slopes : slopes_) slopes.resize(model.nodes);
+  }
+
+  /// Adds it to a sink, minus sign included. \param rate  y' at the state; the workspace must hold its
+  /// kinematics with all rates, and does so again after it. False where the equations fail beside the state.
+  template <class Sink>
+  bool add(const State& state, const Eigen::VectorXd& rate, System::Workspace& work, Sink& sink) {
+    const double step = turning_step(work);
+    if (!take(state, rate, -step, work, slopes_[0]) || !take(state, rate, step, work, slopes_[1]))
+      return false;
+    if (!kinematics(model_, state, state.time, state.y, Motion::all, work).ok()) return false;
+    for_edges([&](const NodeRange& rod, std::size_t i) {
+      EdgeSlopes& rates = slopes_[1][i];
+      differentiate(slopes_[0][i], 2 * step, rates);
+      edge_slopes(model_, rod, i, state, work, slopes_[0][i]);
+      turned_resistance(model_, rod, i, slopes_[0][i], rates, turned_);
+      visit(turned_, -model_.viscosity[i], sink);
+      const Mat3 pull = turned_pull(model_, i, work);
+      for (const std::size_t row : {i, i + 1})
+        for (const std::size_t column : {i, i + 1})
+          if (model_.feels[row])
+            sink.block(model_.carrier[row], model_.carrier[column], row == column ? Mat3(-pull) : pull);
+    });
+    return true;
+  }
+
+ private:
+  template <class F>
+  void for_edges(F call) const {
+    for (const NodeRange& rod : model_.rods)
+      for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i)
+        if (model_.viscosity[i] > 0.0) call(rod, i);
+  }
+
+  /// Slopes a little earlier or later.
+  bool take(const State& state, const Eigen::VectorXd& rate, double h, System::Workspace& work,
+            std::vector<EdgeSlopes>& to) {
+    const Eigen::Index n3 = model_.v_begin();
+    const auto m = static_cast<Eigen::Index>(model_.twist_nodes);
+    moved_ = state.y;
+    moved_.head(n3) += h * rate.head(n3);
+    moved_.segment(model_.theta_begin(), m) += h * rate.segment(model_.theta_begin(), m);
+    if (!kinematics(model_, state, state.time + h, moved_, Motion::places, work).ok()) return false;
+    for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, work, to[i]); });
+    return true;
+  }
+
+  /// (later - before) / time, into later.
+  static void differentiate(const EdgeSlopes& before, double time, EdgeSlopes& later) {
+    for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
+      for (std::size_t a = 0; a < 5; ++a) later.node[q][a] = (later.node[q][a] - before.node[q][a]) / time;
+      for (std::size_t a = 0; a < 2; ++a) later.angle[q][a] = (later.angle[q][a] - before.angle[q][a]) / time;
+    }
+  }
+
+  /// In which nothing turns by more than 1e-5. The bound matters where next to nothing turns.
+  double turning_step(const System::Workspace& work) const {
+    double fastest = 1e-2;
+    for (std::size_t i = 0; i < model_.nodes; ++i)
+      fastest = std::max(
+          {fastest, Vec3(work.e_rate[i]).norm(), Vec3(work.turning[i]).norm(), std::abs(work.spin[i])});
+    return 1e-5 / fastest;
+  }
+
+  const System::Model& model_;
+  Eigen::VectorXd moved_;
+  std::vector<EdgeSlopes> slopes_[2];  ///< by the first node of the edge
+  TurnedResistance turned_;
+};
+
+}  // namespace tendril

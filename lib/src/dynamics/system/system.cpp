@@ -1,0 +1,104 @@
+#include <tendril/base/error.h>
+#include <tendril/dynamics/forces.h>
+
+#include "dynamics/rhs/elastic.h"
+#include "dynamics/rhs/kinematics.h"
+#include "dynamics/rhs/pull_back.h"
+#include "dynamics/rhs/rates.h"
+#include "dynamics/vector/finite.h"
+
+namespace tendril {
+namespace {
+
+using Workspace = System::Workspace;
+using Model = System::Model;
+
+}  // namespace
+
+System::System(Scene scene, double from) : model_(std::make_unique<const Model>(std::move(scene), from)) {}
+System::~System() = default;
+System::System(System&&) noexcept = default;
+System& System::operator=(System&&) noexcept = default;
+
+System::WorkspacePtr System::make_workspace() const {
+  return WorkspacePtr(new Workspace(*model_));
+}
+
+void System::Release::operator()(Workspace* work) const {
+  delete work;
+}
+
+std::span<const NodeRange> System::rods() const {
+  return model_->rods;
+}
+std::size_t System::node_count() const {
+  return model_->nodes;
+}
+std::size_t System::twist_count() const {
+  return model_->twist_nodes;
+}
+const Scene& System::scene() const {
+  return model_->scene;
+}
+const std::vector<std::string>& System::left_out() const {
+  return model_->left_out;
+}
+
+State System::rest_state(double time) const {
+  State state;
+  state.time = time;
+  state.y = Eigen::VectorXd::Zero(model_->size());
+  for (std::size_t i = 0; i < model_->nodes; ++i) {
+    state.y.segment<3>(3 * static_cast<Eigen::Index>(i)) = model_->rest_p[i];
+    state.tangent.push_back(model_->rest_frame[i].z);
+    state.director.push_back(model_->rest_frame[i].y);
+  }
+  state.twist = model_->rest_twist;
+  const auto work = make_workspace();
+  if (!rebase(state, *work).ok())
+    throw InvalidInput("anchors", "the poses at the start leave no frame at some node",
+                       "poses near the rest shape");
+  return state;
+}
+
+Evaluation System::derivative(const State& reference, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy,
+                              Workspace& work) const {
+  return rates(*model_, reference, t, y, true, dy, work);
+}
+
+Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,
+                                    double& energy, Eigen::VectorXd& gradient, Workspace& work) const {
+  const Model& model = *model_;
+  if (const Evaluation at = kinematics(model, reference, t, y, Motion::places, work); !at.ok()) return at;
+  if (const Evaluation at = elastic_energy(model, reference, work, energy); !at.ok()) return at;
+  no_loads(work);
+  pull_back(model, work);
+  gradient.resize(model.v_begin() + static_cast<Eigen::Index>(model.twist_nodes));
+  for (std::size_t i = 0; i < model.nodes; ++i) {
+    gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = -work.force[i];
+    if (model.has_twist(i)) gradient[model.v_begin() + model.twist_index[i]] = work.g_spin[i];
+  }
+  return {};
+}
+
+Energies System::energies(const State& state, Workspace& work) const {
+  const Model& model = *model_;
+  Energies result;
+  const Motion what = model.loaded ? Motion::all : Motion::springs;
+  if (!all_finite(state.y)) return result;
+  if (!kinematics(model, state, state.time, state.y, what, work).ok()) return result;
+  if (!elastic_energy(model, state, work, result.elastic).ok()) return result;
+  for (std::size_t i = 0; i < model.nodes; ++i) {
+    if (!model.holds_position(i)) result.kinetic += 0.5 * model.moved_mass[i] * work.v[i].squaredNorm();
+    if (model.has_twist(i) && !model.holds_frame(i))
+      result.kinetic += 0.5 * model.inertia[i] * work.spin[i] * work.spin[i];
+    result.potential -= model.mass[i] * model.gravity.dot(work.p[i]);
+  }
+  if (!model.loaded) return result;
+  const StateView seen = view(model, state.time, work);
+  for (const auto& force : model.scene.forces)
+    if (force->has_energy() && !is_gravity(*force)) result.potential += force->energy(seen);
+  return result;
+}
+
+}  // namespace tendril
