@@ -2,6 +2,7 @@
 
 #include <tendril/base/types.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,6 +59,11 @@ class Force {
   /// instead of its work.
   virtual bool has_energy() const { return false; }
   virtual double energy(const StateView&) const { return 0.0; }
+
+  /// The acceleration a, when the loads are the mass of each node times a in every state and at all times,
+  /// and nothing else: such forces are summed once when a system is made, add() is not called, and their
+  /// energy is -sum m a . p.
+  virtual std::optional<Vec3> uniform_acceleration() const { return {}; }
 
   /// False when the loads are the same whatever the state: implicit steps then need no derivatives of them.
   virtual bool depends_on_state() const { return true; }

@@ -8,7 +8,7 @@
 namespace tendril {
 
 /// m g on every mass (thesis 3.17); energy -sum m g.p.
-class Gravity : public Force {
+class Gravity final : public Force {
  public:
   explicit Gravity(const Vec3& acceleration);
   void add(const StateView& state, const Loads& loads) const override;
@@ -16,7 +16,7 @@ class Gravity : public Force {
   bool depends_on_time() const override { return false; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
-  const Vec3& acceleration() const { return g_; }
+  std::optional<Vec3> uniform_acceleration() const override { return g_; }
 
  private:
   Vec3 g_;

@@ -1,12 +1,9 @@
 #include "rates.h"
 
-#include <tendril/dynamics/forces.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <typeinfo>
 
 #include "dynamics/vector/column_access.h"
 #include "elastic.h"
@@ -33,30 +30,26 @@ Loads no_loads(System::Workspace& work) {
   return {work.load, work.torque};
 }
 
-bool is_gravity(const Force& force) {
-  return typeid(force) == typeid(Gravity);
-}
-
 namespace {
 
 using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
 using Model = System::Model;
 
-/// Adds the external forces but gravity to the workspace's loads; returns the power of those without an
+/// Adds the acting forces to the workspace's loads; returns the power of those without an
 /// energy.
 double add_external(const Model& model, double t, Workspace& work) {
   const StateView state = view(model, t, work);
   const Loads loads = no_loads(work);
-  for (const auto& force : model.scene.forces)
-    if (!force->has_energy()) force->add(state, loads);
+  for (const Model::Acting& acting : model.acting)
+    if (!acting.has_energy) acting.force->add(state, loads);
   double power = 0.0;
   for (std::size_t i = 0; i < model.nodes; ++i) {
     const Vec3 turning = Vec3(work.turning[i]) + work.spin[i] * work.seen_t[i];
     power += work.load[i].dot(work.seen_v[i]) + work.torque[i].dot(turning);
   }
-  for (const auto& force : model.scene.forces)
-    if (force->has_energy() && !is_gravity(*force)) force->add(state, loads);
+  for (const Model::Acting& acting : model.acting)
+    if (acting.has_energy) acting.force->add(state, loads);
   return power;
 }
 

@@ -14,8 +14,6 @@ StateView view(const System::Model& model, double t, System::Workspace& work);
 /// The workspace's loads, set to zero.
 Loads no_loads(System::Workspace& work);
 
-bool is_gravity(const Force& force);
-
 /// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
 /// and do not give their derivatives; everything else is 0.
 Evaluation undifferentiated_loads(const System::Model& model, const State& reference,

@@ -1,12 +1,10 @@
 #include "model.h"
 
 #include <tendril/base/error.h>
-#include <tendril/dynamics/forces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <typeinfo>
 
 namespace tendril {
 namespace {
@@ -292,13 +290,13 @@ void System::Model::choose_forces() {
     damped = damped || damping[i] > 0.0;
   }
   for (const auto& force : scene.forces) {
-    // Gravity accelerates every free node alike, whatever merged with it: no loads need to be summed.
-    const Force& f = *force;
-    if (typeid(f) == typeid(Gravity))
-      gravity += static_cast<const Gravity&>(f).acceleration();
+    // What accelerates every free node alike does so whatever merged with it: no loads need to be summed.
+    if (const std::optional<Vec3> a = force->uniform_acceleration())
+      gravity += *a;
     else
-      loaded = true;
+      acting.push_back({force.get(), force->has_energy()});
   }
+  loaded = !acting.empty();
 }
 
 void System::Model::lay_out_springs() {

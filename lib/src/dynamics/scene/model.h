@@ -76,9 +76,15 @@ struct System::Model {
   };
   Bending bending;
 
-  Vec3 gravity = Vec3::Zero();  ///< of all forces that are nothing else
-  bool loaded = false;          ///< there are forces beside gravity
-  bool damped = false;          ///< some rod has mass damping
+  Vec3 gravity = Vec3::Zero();  ///< of all forces that are one acceleration of every mass
+  /// The others, in the scene's order.
+  struct Acting {
+    const Force* force;
+    bool has_energy;
+  };
+  std::vector<Acting> acting;
+  bool loaded = false;  ///< there are such
+  bool damped = false;  ///< some rod has mass damping
 
   // Per edge, and per edge and end (2 i at node i, 2 i + 1 at node i + 1).
   std::vector<double> stretch, twist, width, viscosity, rest_length, rest_twist;

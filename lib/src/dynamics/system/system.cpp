@@ -1,5 +1,4 @@
 #include <tendril/base/error.h>
-#include <tendril/dynamics/forces.h>
 
 #include "dynamics/rhs/elastic.h"
 #include "dynamics/rhs/kinematics.h"
@@ -96,8 +95,8 @@ Energies System::energies(const State& state, Workspace& work) const {
   }
   if (!model.loaded) return result;
   const StateView seen = view(model, state.time, work);
-  for (const auto& force : model.scene.forces)
-    if (force->has_energy() && !is_gravity(*force)) result.potential += force->energy(seen);
+  for (const Model::Acting& acting : model.acting)
+    if (acting.has_energy) result.potential += acting.force->energy(seen);
   return result;
 }
 
