@@ -1,4 +1,4 @@
-#include <tendril/dynamics/stepper.h>
+#include <tendril/dynamics/method.h>
 
 #include "bench/clock.h"
 #include "bench/sections.h"

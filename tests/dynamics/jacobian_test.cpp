@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "dynamics/integrate/stiff_solver.h"
+#include "dynamics/steppers/stiff_solver.h"
 #include "support/rods.h"
 
 namespace tendril {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tendril/dynamics/backward_euler.h>
 #include <tendril/dynamics/fixed_steppers.h>
 #include <tendril/dynamics/forces.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tendril/dynamics/stepper.h>
+#include <tendril/dynamics/method.h>
 
 #include <stdexcept>
 

@@ -24,24 +24,20 @@ struct Options {
   bool json = false;
 };
 
-constexpr std::array kMethods{Method::cash_karp,     Method::rodas,        Method::automatic,
-                              Method::verlet,        Method::runge_kutta4, Method::explicit_euler,
-                              Method::backward_euler};
 Method method_of(const std::string& name) {
+  if (const MethodInfo* row = find_method(name)) return row->method;
   std::string known;
-  for (const Method method : kMethods) {
-    if (name == tendril::to_string(method)) return method;
-    known += std::string(known.empty() ? "" : ", ") + tendril::to_string(method);
-  }
+  for (const MethodInfo& row : methods()) known += std::string(known.empty() ? "" : ", ") + row.name;
   throw InvalidInput("--methods", name, "some of " + known);
 }
 
-/// The two Eulers are comparators and only run when they are asked for.
+/// Methods of order 1 are comparators and only run when they are asked for.
 std::vector<Method> methods_for(const Options& options) {
   std::vector<Method> out;
   for (const std::string& name : options.methods) out.push_back(method_of(name));
-  if (out.empty())
-    out = {Method::cash_karp, Method::rodas, Method::automatic, Method::verlet, Method::runge_kutta4};
+  if (!out.empty()) return out;
+  for (const MethodInfo& row : methods())
+    if (row.order > 1) out.push_back(row.method);
   return out;
 }
 

@@ -111,12 +111,17 @@ std::vector<double> read_outputs(const JsonNode& simulation, double duration) {
   return outputs;
 }
 
-/// Cash-Karp and RODAS choose their own steps; every other method needs one.
+/// A method that chooses its own steps is given none; every other one needs one.
 void read_method(const JsonNode& simulation, SimulationOptions& options) {
   const std::string name = simulation.text_or("method", to_string(options.method));
-  for (const Method method : {Method::rodas, Method::automatic, Method::verlet, Method::runge_kutta4,
-                              Method::explicit_euler, Method::backward_euler})
-    if (name == to_string(method)) options.method = method;
+  const MethodInfo* row = find_method(name);
+  if (row == nullptr) {
+    std::string known;
+    for (const MethodInfo& one : methods())
+      known += (known.empty() ? "one of: \"" : ", \"") + std::string(one.name) + '"';
+    simulation.at("method").refuse('"' + name + "\" is not one of the choices", known);
+  }
+  options.method = row->method;
   if (!chooses_steps(options.method)) {
     options.fixed_step = simulation.at("fixed_step").positive();
   } else if (simulation.has("fixed_step")) {

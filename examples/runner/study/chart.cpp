@@ -13,25 +13,11 @@ namespace {
 constexpr double kPanelWidth = 430, kPanelHeight = 360, kLeft = 84, kTop = 92, kBetween = 96, kRight = 28;
 constexpr double kLine = 20;  // of the legend and notes
 
-/// Colours that differ for colour-blind readers too (Okabe and Ito), by method; dark enough on white.
+/// Colours that differ for colour-blind readers too (Okabe and Ito), by the method's row; dark enough on
+/// white.
 const char* colour_of(Method method) {
-  switch (method) {
-    case Method::cash_karp:
-      return "#0072b2";
-    case Method::rodas:
-      return "#d55e00";
-    case Method::automatic:
-      return "#009e73";
-    case Method::verlet:
-      return "#cc79a7";
-    case Method::runge_kutta4:
-      return "#56b4e9";
-    case Method::explicit_euler:
-      return "#8c6d1f";
-    case Method::backward_euler:
-      return "#555555";
-  }
-  return "#000000";
+  constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#8c6d1f", "#555555"};
+  return kColours[static_cast<std::size_t>(method) % kColours.size()];
 }
 
 std::string number(const char* format, double value) {

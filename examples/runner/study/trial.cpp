@@ -183,10 +183,8 @@ Trial Study::run(const Setting& setting, double cap, bool patient) const {
 }
 
 double Study::stable_step(Method method) const {
-  double oscillation = 0.0, decay_limit = 0.0;
-  if (method == Method::verlet) oscillation = 2.0, decay_limit = 2.0;
-  if (method == Method::runge_kutta4) oscillation = 2.82, decay_limit = 2.78;
-  if (oscillation == 0.0) return 0.0;
+  const auto& [oscillation, decay_limit] = info(method).stability;
+  if (chooses_steps(method) || oscillation == 0.0 || !std::isfinite(oscillation)) return 0.0;
   const auto work = system_.make_workspace();
   const double w = system_.largest_frequency(system_.rest_state(), 32, *work);
   double decay = 0.0;

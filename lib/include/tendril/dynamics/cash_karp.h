@@ -23,10 +23,12 @@ struct CashKarpTableau {
                                                 13525.0 / 55296, 277.0 / 14336, 1.0 / 4};
 };
 
-/// One step of the pair, with its own scratch space.
+/// One step of the pair.
 class CashKarp : public EmbeddedStepper {
  public:
+  /// \param system  kept by reference
   explicit CashKarp(const System& system);
+  ~CashKarp() override;
 
   /// y of order 5, error y - y_star (3.32).
   Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) override;
@@ -38,17 +40,13 @@ class CashKarp : public EmbeddedStepper {
   /// Forgets the kept derivative: call when the state has changed other than by advance.
   void restart() override;
 
-  long evaluations() const override { return evaluations_; }
+  long evaluations() const override;
   const char* name() const override { return "Cash-Karp 4(5)"; }
-  System::Workspace& workspace() { return *work_; }
+  System::Workspace& workspace();
 
  private:
-  const System& system_;
-  System::WorkspacePtr work_;
-  std::array<Eigen::VectorXd, 6> k_;
-  Eigen::VectorXd stage_;
-  bool first_known_ = false;
-  long evaluations_ = 0;
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
 };
 
 }  // namespace tendril

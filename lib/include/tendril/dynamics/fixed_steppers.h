@@ -2,10 +2,6 @@
 
 #include <tendril/dynamics/stepper.h>
 
-#include <Eigen/LU>
-
-#include <array>
-
 namespace tendril {
 
 /// y + h f(t, y). Order 1, one evaluation. Amplifies every undamped oscillation, by sqrt(1 + (h w)^2) a step:
@@ -13,15 +9,14 @@ namespace tendril {
 class ExplicitEuler : public Stepper {
  public:
   explicit ExplicitEuler(const System& system);
+  ~ExplicitEuler() override;
   Evaluation advance(State& state, double h) override;
-  long evaluations() const override { return evaluations_; }
+  long evaluations() const override;
   const char* name() const override { return "explicit Euler"; }
 
  private:
-  const System& system_;
-  System::WorkspacePtr work_;
-  Eigen::VectorXd rate_;
-  long evaluations_ = 0;
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
 };
 
 /// The classic Runge-Kutta method (thesis 3.28 with k4 at y + h k3). Order 4, four evaluations, stable on
@@ -29,48 +24,14 @@ class ExplicitEuler : public Stepper {
 class ClassicRungeKutta : public Stepper {
  public:
   explicit ClassicRungeKutta(const System& system);
+  ~ClassicRungeKutta() override;
   Evaluation advance(State& state, double h) override;
-  long evaluations() const override { return evaluations_; }
+  long evaluations() const override;
   const char* name() const override { return "classic Runge-Kutta 4"; }
 
  private:
-  const System& system_;
-  System::WorkspacePtr work_;
-  std::array<Eigen::VectorXd, 4> k_;
-  Eigen::VectorXd stage_;
-  long evaluations_ = 0;
-};
-
-/// v' = v + h a(t', p', v'), p' = p + h v', the spins and directors alike. Order 1, stable at every step and
-/// strongly dissipating: a comparator.
-///
-/// Newton on the 3n + m new velocities and spins with a dense matrix from forward differences: 3n + m
-/// evaluations and 2/3 (3n + m)^3 operations whenever the kept one converges slowly, 2 (3n + m)^2 operations
-/// an iteration; any force and any tree, but not for many nodes. Outcome not_converged when no matrix renewed
-/// on the way helps: then a shorter step will.
-class BackwardEuler : public Stepper {
- public:
-  explicit BackwardEuler(const System& system);
-  Evaluation advance(State& state, double h) override;
-  void restart() override { matrix_step_ = 0.0; }
-  long evaluations() const override { return evaluations_; }
-  const char* name() const override { return "backward Euler"; }
-
- private:
-  Evaluation defect(const State& start, double h, const Eigen::VectorXd& z, Eigen::VectorXd& out);
-  Evaluation renew_matrix(const State& start, double h, const Eigen::VectorXd& z,
-                          const Eigen::VectorXd& at_z);
-  bool iterate(const State& start, double h, Eigen::VectorXd& z, Evaluation& at);
-  void place(const State& start, double h, const Eigen::VectorXd& z, Eigen::VectorXd& y) const;
-
-  const System& system_;
-  System::WorkspacePtr work_;
-  Eigen::Index moved_, turned_;  ///< 3n, m
-  Eigen::VectorXd scale_;        ///< per unknown: shortest edge, or 1 rad
-  Eigen::VectorXd rate_, y_, start_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> matrix_;
-  double matrix_step_ = 0.0;  ///< the step the matrix was made for; 0: none
-  long evaluations_ = 0;
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
 };
 
 /// Velocity Verlet, kick, drift, kick. The drift moves the masses by h v, carries each director by the
@@ -89,18 +50,15 @@ class BackwardEuler : public Stepper {
 class VelocityVerlet : public Stepper {
  public:
   explicit VelocityVerlet(const System& system);
+  ~VelocityVerlet() override;
   Evaluation advance(State& state, double h) override;
-  void restart() override { known_ = false; }
-  long evaluations() const override { return evaluations_; }
+  void restart() override;
+  long evaluations() const override;
   const char* name() const override { return "velocity Verlet"; }
 
  private:
-  const System& system_;
-  System::WorkspacePtr work_;
-  int passes_;
-  Eigen::VectorXd rate_, half_, y_;
-  bool known_ = false;
-  long evaluations_ = 0;
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
 };
 
 }  // namespace tendril

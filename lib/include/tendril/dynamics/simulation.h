@@ -2,7 +2,7 @@
 
 #include <tendril/curve/fit.h>
 #include <tendril/dynamics/follower.h>
-#include <tendril/dynamics/stepper.h>
+#include <tendril/dynamics/method.h>
 
 #include <functional>
 #include <optional>

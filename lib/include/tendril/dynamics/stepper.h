@@ -35,15 +35,4 @@ class EmbeddedStepper : public Stepper {
   virtual bool stiff() const { return false; }  ///< damps what it does not resolve, at any step
 };
 
-/// The methods a run can be told to use. Cash-Karp and RODAS choose their own steps, `automatic` one of the
-/// two as the scene's stiffness asks, both ways; the others keep to the size given.
-enum class Method { cash_karp, rodas, automatic, verlet, runge_kutta4, explicit_euler, backward_euler };
-const char* to_string(Method method);
-
-/// True for the methods that estimate their error and choose their steps by it.
-bool chooses_steps(Method method);
-
-/// A stepper for the method (Cash-Karp for `automatic`). \param system  kept by reference
-std::unique_ptr<Stepper> make_stepper(Method method, const System& system);
-
 }  // namespace tendril

@@ -67,10 +67,9 @@ class System {
   /// evaluations.
   double largest_frequency(const State& state, int vectors, Workspace& work) const;
 
-  struct Model;  ///< the flat arrays, private to the module
-  const Model& model() const { return *model_; }
-
  private:
+  friend struct SystemAccess;
+  struct Model;  ///< the flat arrays
   std::unique_ptr<const Model> model_;
 };
 

@@ -47,7 +47,7 @@ Controller::Controller(const System& system, State start, const SimulationOption
   for (const auto& force : system.scene().forces)
     for (const double time : force->breaks()) breaks_.push_back(time);
   std::sort(breaks_.begin(), breaks_.end());
-  floats_ = has_free_body(system.model());
+  floats_ = has_free_body(model_of(system));
   make_steppers();
   report_.method = fixed_ ? fixed_->name() : embedded_->name();
   report_.guard_step = std::numeric_limits<double>::infinity();

@@ -13,17 +13,12 @@ constexpr int kLanczosVectors = 16;
 // Accepted steps between estimates of the largest frequency: a twentieth of the cheapest method's work.
 constexpr long kGuardInterval = 640;
 
-/// Largest h w, and largest h (alpha + beta w^2), of an oscillation that is not amplified.
-struct StabilityLimits {
-  double oscillation, decay;
-};
-
-StabilityLimits stability_limits(Method method) {
-  if (method == Method::verlet) return {2.0, 2.0};
-  if (method == Method::runge_kutta4) return {2.82, 2.78};
-  // Backward Euler amplifies nothing, explicit Euler everything undamped: the energy shows it, as it does for
-  // steppers of which nothing is known.
-  return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+/// Beyond which a run is refused. Of a stepper of one's own nothing is known; of a method that amplifies
+/// every oscillation the energy tells.
+StabilityLimits limits_of(const SimulationOptions& options) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (options.own_stepper || info(options.method).stability.oscillation == 0.0) return {kAny, kAny};
+  return info(options.method).stability;
 }
 
 }  // namespace
@@ -36,8 +31,7 @@ void Controller::guard_fixed_step() {
   double decay = 0.0;
   for (const Rod& rod : system_.scene().rods)
     decay = std::max(decay, rod.mass_damping + rod.viscosity * w * w);
-  const StabilityLimits limits =
-      stability_limits(options_.own_stepper ? Method::explicit_euler : options_.method);
+  const StabilityLimits limits = limits_of(options_);
   report_.guard_step = std::min(limits.oscillation / w, limits.decay / decay);
   if (*options_.fixed_step >= report_.guard_step)
     stop(Stop::too_stiff,

@@ -8,7 +8,6 @@ namespace tendril {
 namespace {
 
 using Workspace = System::Workspace;
-using Model = System::Model;
 
 /// What the springs between a held frame and one edge give.
 struct Given {

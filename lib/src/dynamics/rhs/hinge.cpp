@@ -11,8 +11,7 @@ namespace tendril {
 namespace {
 
 using Workspace = System::Workspace;
-using Model = System::Model;
-using Segment = System::Model::Segment;
+using Segment = Model::Segment;
 using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;

@@ -6,7 +6,7 @@ namespace tendril {
 
 /// The bending of rods without twist state in a segment: the springs between two edges, with the energy of
 /// each node in work.energy when asked for. Fails where two edges fold back.
-Evaluation hinge(const System::Model& model, const State& reference, const System::Model::Segment& segment,
-                 bool energy, System::Workspace& work);
+Evaluation hinge(const Model& model, const State& reference, const Model::Segment& segment, bool energy,
+                 System::Workspace& work);
 
 }  // namespace tendril

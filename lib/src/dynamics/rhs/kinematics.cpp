@@ -11,7 +11,6 @@ namespace {
 
 using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
-using Model = System::Model;
 using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
@@ -153,14 +152,14 @@ void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspa
     work.p.set(i, work.pose[a].position);
     work.v.set(i, work.pose[a].velocity);
   }
-  for (const System::Model::Ride& ride : model.rides) {
+  for (const Model::Ride& ride : model.rides) {
     work.p.set(ride.root, work.p[ride.parent]);
     work.v.set(ride.root, work.v[ride.parent]);
   }
 }
 
 /// The root of a child rod takes its frame from the node it rides on, which is known by then.
-void take_ride(const System::Model::Ride& ride, bool rates, Workspace& work) {
+void take_ride(const Model::Ride& ride, bool rates, Workspace& work) {
   const std::size_t i = ride.root;
   const Frame f = work.frame[ride.parent];
   const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
@@ -206,7 +205,7 @@ Evaluation find_bad_edge(const Model& model, const Workspace& work) {
   return {};
 }
 
-Evaluation find_bad_tangent(const Model& model, const State& reference, const System::Model::Segment& segment,
+Evaluation find_bad_tangent(const Model& model, const State& reference, const Model::Segment& segment,
                             const Workspace& work) {
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     if (model.holds_frame(i)) continue;
@@ -223,7 +222,7 @@ const double* numbers(const std::vector<Vec3>& v) {
 
 Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y, Motion what,
                        Workspace& work) {
-  for (const System::Model::Segment& s : model.segments) {
+  for (const Model::Segment& s : model.segments) {
     if (!s.twist && what == Motion::springs) continue;
     const bool places = what == Motion::places;
     Carried from{};
@@ -239,7 +238,7 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
     if (const Evaluation at = find_bad_tangent(model, reference, s, work); !at.ok()) return at;
   }
   take_held_frames(model, work);
-  for (const System::Model::Ride& ride : model.rides) take_ride(ride, what != Motion::places, work);
+  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::places, work);
   return {};
 }
 

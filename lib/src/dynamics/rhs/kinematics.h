@@ -12,7 +12,7 @@ enum class Motion { places, springs, all };
 
 /// Fills the workspace's kinematics from y. For springs alone, numbers in y that are not finite may pass:
 /// they make the forces so.
-Evaluation kinematics(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, System::Workspace& work);
 
 }  // namespace tendril

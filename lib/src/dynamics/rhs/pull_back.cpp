@@ -6,8 +6,7 @@ namespace tendril {
 namespace {
 
 using Workspace = System::Workspace;
-using Model = System::Model;
-using Segment = System::Model::Segment;
+using Segment = Model::Segment;
 using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
@@ -56,7 +55,7 @@ TENDRIL_LANES void to_masses(std::size_t nodes, Workspace& work) {
 
 /// What the root of a child rod feels goes to the node it rides on: the force, and the torque T by
 /// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
-void pass_on_torque(const System::Model::Ride& ride, Workspace& work) {
+void pass_on_torque(const Model::Ride& ride, Workspace& work) {
   if (!ride.reaction) return;
   const std::size_t i = ride.root;
   const Vec3 t0 = work.frame.z[i];
@@ -71,7 +70,7 @@ void pass_on_torque(const System::Model::Ride& ride, Workspace& work) {
   if (!work.torque.empty()) work.torque[i].setZero();
 }
 
-void pass_on_force(const System::Model::Ride& ride, Workspace& work) {
+void pass_on_force(const Model::Ride& ride, Workspace& work) {
   if (!ride.reaction) return;
   work.force.add(ride.parent, work.force[ride.root]);
   work.force.set(ride.root, Vec3::Zero());

@@ -12,7 +12,7 @@
 
 namespace tendril {
 
-StateView view(const System::Model& model, double t, System::Workspace& work) {
+StateView view(const Model& model, double t, System::Workspace& work) {
   for (std::size_t i = 0; i < model.nodes; ++i) {
     work.seen_p[i] = work.p[i];
     work.seen_v[i] = work.v[i];
@@ -34,7 +34,6 @@ namespace {
 
 using Outcome = Evaluation::Outcome;
 using Workspace = System::Workspace;
-using Model = System::Model;
 
 /// Adds the acting forces to the workspace's loads; returns the power of those without an
 /// energy.

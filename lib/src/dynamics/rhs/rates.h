@@ -5,18 +5,18 @@
 namespace tendril {
 
 /// The equations of motion: y' at (t, y), with or without the springs and their viscous parts.
-Evaluation rates(const System::Model& model, const State& reference, double t, const Eigen::VectorXd& y,
-                 bool springs, Eigen::VectorXd& dy, System::Workspace& work);
+Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
+                 Eigen::VectorXd& dy, System::Workspace& work);
 
 /// What forces see, from the workspace's kinematics with all rates.
-StateView view(const System::Model& model, double t, System::Workspace& work);
+StateView view(const Model& model, double t, System::Workspace& work);
 
 /// The workspace's loads, set to zero.
 Loads no_loads(System::Workspace& work);
 
 /// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
 /// and do not give their derivatives; everything else is 0.
-Evaluation undifferentiated_loads(const System::Model& model, const State& reference,
-                                  const Eigen::VectorXd& y, Eigen::VectorXd& loads, System::Workspace& work);
+Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
+                                  Eigen::VectorXd& loads, System::Workspace& work);
 
 }  // namespace tendril

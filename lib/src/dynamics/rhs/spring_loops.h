@@ -9,8 +9,7 @@ namespace tendril {
 
 /// A loop over the nodes or edges [first, end). Loops for small angles need neither divisions nor roots; what
 /// they say is whether all were small.
-using Loop = bool (*)(const System::Model&, const State&, std::size_t first, std::size_t end,
-                      System::Workspace&);
+using Loop = bool (*)(const Model&, const State&, std::size_t first, std::size_t end, System::Workspace&);
 struct Loops {
   Loop near, far;
 };
@@ -18,8 +17,8 @@ struct Loops {
 /// Stretches of this length are done again with the far loop where the near one does not hold.
 constexpr std::size_t kStretch = 128;
 
-inline bool run(const Loops& loops, const System::Model& model, const State& reference,
-                const System::Model::Segment& segment, System::Workspace& work) {
+inline bool run(const Loops& loops, const Model& model, const State& reference, const Model::Segment& segment,
+                System::Workspace& work) {
   bool good = true;
   for (std::size_t first = segment.first; first < segment.end; first += kStretch) {
     const std::size_t end = std::min(first + kStretch, segment.end);

@@ -4,7 +4,7 @@
 
 namespace tendril {
 
-System::Workspace::Workspace(const System::Model& model) : pose(model.anchors.size()) {
+System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()) {
   const std::size_t n = model.nodes;
   std::size_t rank = 0;
   for (auto* vectors : {&p, &v, &frame.y, &frame.z, &e, &e_rate, &turning, &g_bend, &g_before, &g_after,

@@ -6,7 +6,7 @@ namespace tendril {
 namespace {
 
 /// Per node, the number of its rod.
-std::vector<std::size_t> rod_of_nodes(const System::Model& model) {
+std::vector<std::size_t> rod_of_nodes(const Model& model) {
   std::vector<std::size_t> rod(model.nodes);
   for (std::size_t r = 0; r < model.rods.size(); ++r)
     for (std::size_t i = 0; i < model.rods[r].count; ++i) rod[model.rods[r].first + i] = r;
@@ -15,7 +15,7 @@ std::vector<std::size_t> rod_of_nodes(const System::Model& model) {
 
 }  // namespace
 
-FreeBodies::FreeBodies(const System::Model& model, const std::vector<std::size_t>& node) {
+FreeBodies::FreeBodies(const Model& model, const std::vector<std::size_t>& node) {
   const std::vector<std::size_t> rod = rod_of_nodes(model);
   // The body of a rod is that of its parent's, which comes before it in the order.
   std::vector<std::size_t> body(model.rods.size());
@@ -44,7 +44,7 @@ void FreeBodies::keep(const double* b) {
   }
 }
 
-bool has_free_body(const System::Model& model) {
+bool has_free_body(const Model& model) {
   std::vector<std::size_t> nodes(model.nodes);
   std::iota(nodes.begin(), nodes.end(), std::size_t{0});
   return !FreeBodies(model, nodes).empty();

@@ -15,7 +15,7 @@ namespace tendril {
 class FreeBodies {
  public:
   /// \param node  of every pivot
-  FreeBodies(const System::Model& model, const std::vector<std::size_t>& node);
+  FreeBodies(const Model& model, const std::vector<std::size_t>& node);
 
   bool empty() const { return bodies_.empty(); }
   /// Sums the right-hand sides, before they take part in the solution.
@@ -46,6 +46,6 @@ class FreeBodies {
 };
 
 /// Whether there is any.
-bool has_free_body(const System::Model& model);
+bool has_free_body(const Model& model);
 
 }  // namespace tendril

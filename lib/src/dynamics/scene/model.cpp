@@ -78,7 +78,7 @@ double twist_angle(const Frame& before, const Frame& after) {
   return std::atan2(carried.cross(after.y).dot(after.z), carried.dot(after.y));
 }
 
-System::Model::Model(Scene description, double since) : scene(std::move(description)), from(since) {
+Model::Model(Scene description, double since) : scene(std::move(description)), from(since) {
   if (scene.rods.empty()) throw InvalidInput("rods", "none", "at least one");
   for (std::size_t r = 0; r < scene.rods.size(); ++r) {
     check_rod(scene.rods[r], r);
@@ -96,7 +96,7 @@ System::Model::Model(Scene description, double since) : scene(std::move(descript
   lay_out_springs();
 }
 
-void System::Model::flatten(const Rod& rod) {
+void Model::flatten(const Rod& rod) {
   const NodeRange range{nodes, rod.p.size()};
   rods.push_back(range);
   nodes += range.count;
@@ -124,7 +124,7 @@ void System::Model::flatten(const Rod& rod) {
   flatten_rest_angles(range);
 }
 
-void System::Model::flatten_rest_angles(const NodeRange& range) {
+void Model::flatten_rest_angles(const NodeRange& range) {
   for (std::size_t i = range.first; i + 1 < range.first + range.count; ++i) {
     const Vec3 edge = rest_p[i + 1] - rest_p[i];
     rest_length[i] = edge.norm();
@@ -140,7 +140,7 @@ void System::Model::flatten_rest_angles(const NodeRange& range) {
   }
 }
 
-void System::Model::place_anchors() {
+void Model::place_anchors() {
   anchored.assign(nodes, 0);
   held_position.assign(nodes, 0);
   held_frame.assign(nodes, 0);
@@ -165,7 +165,7 @@ void System::Model::place_anchors() {
   }
 }
 
-void System::Model::place_joints() {
+void Model::place_joints() {
   ride_index.assign(rods.size(), -1);
   moved_mass = mass;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
@@ -196,7 +196,7 @@ void System::Model::place_joints() {
   }
 }
 
-void System::Model::sort_rods() {
+void Model::sort_rods() {
   // Breadth first from the rods without a parent; what is not reached lies on a cycle.
   std::vector<std::size_t> rod_of(nodes);
   for (std::size_t r = 0; r < rods.size(); ++r)
@@ -230,7 +230,7 @@ void System::Model::sort_rods() {
     if (ride->reaction) moved_mass[ride->parent] += moved_mass[ride->root];
 }
 
-std::string System::Model::twist_source(std::size_t r) const {
+std::string Model::twist_source(std::size_t r) const {
   const NodeRange& range = rods[r];
   if (scene.twist == Scene::Twist::everywhere) return "asked for";
   if (scene.rods[r].viscosity > 0.0) return "viscosity";
@@ -253,7 +253,7 @@ std::string System::Model::twist_source(std::size_t r) const {
   return {};
 }
 
-void System::Model::choose_twist() {
+void Model::choose_twist() {
   twist_index.assign(nodes, -1);
   for (std::size_t r = 0; r < rods.size(); ++r) {
     if (twist_source(r).empty()) {
@@ -270,7 +270,7 @@ void System::Model::choose_twist() {
   if (scene.anchors.empty()) left_out.emplace_back("anchors left out: no node is held");
 }
 
-void System::Model::choose_forces() {
+void Model::choose_forces() {
   std::size_t rank = kModelRank;
   for (auto* numbers : {&inverse_mass, &inverse_inertia, &free_inertia, &damped_mass, &damped_inertia})
     *numbers = Column(nodes, rank++);
@@ -299,7 +299,7 @@ void System::Model::choose_forces() {
   loaded = !acting.empty();
 }
 
-void System::Model::lay_out_springs() {
+void Model::lay_out_springs() {
   begins.assign(nodes, 0);
   ends.assign(nodes, 0);
   for (std::size_t r = 0; r < rods.size(); ++r) {
@@ -332,7 +332,7 @@ void System::Model::lay_out_springs() {
   for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 
-void System::Model::lay_out_bending(std::size_t i) {
+void Model::lay_out_bending(std::size_t i) {
   if (holds_frame(i)) {
     (has_twist(i) ? bending.held : bending.held_hinges).push_back(i);
   } else if (has_before(i) && has_after(i)) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <tendril/dynamics/system.h>
-
 #include <vector>
 
+#include "access.h"
 #include "dynamics/vector/columns.h"
 
 namespace tendril {

@@ -122,7 +122,7 @@ bool Search::first() {
 
 double Search::pose_turn(double from, double to) const {
   double fastest = 0.0;
-  for (const Anchor& anchor : system_.model().anchors) {
+  for (const Anchor& anchor : model_of(system_).anchors) {
     if (!anchor.motion || !anchor.holds_frame) continue;
     for (const double share : {0.0, 0.5, 1.0})
       fastest = std::max(fastest, anchor.motion(from + share * (to - from)).angular_velocity.norm());

@@ -45,7 +45,7 @@ void StaticCoordinates::hold() {
   held_position_.assign(n, 0);
   held_frame_.assign(n, 0);
   anchor_.assign(n, nullptr);
-  for (const Anchor& anchor : system_.model().anchors) {
+  for (const Anchor& anchor : model_of(system_).anchors) {
     const std::size_t node = system_.rods()[anchor.rod].first + anchor.node;
     held_position_[node] = anchor.holds_position;
     held_frame_[node] = anchor.holds_frame;
@@ -99,7 +99,7 @@ void StaticCoordinates::number() {
     for (std::size_t i = rod.first + rod.count; i-- > rod.first;) {
       for (int axis = 0; axis < 3 && !holds_position(i); ++axis)
         add(i, axis, 3 * static_cast<Eigen::Index>(i) + axis);
-      const int twist = system_.model().twist_index[i];
+      const int twist = model_of(system_).twist_index[i];
       if (twist < 0 || holds_frame(i)) continue;
       turn_in_y_[i] = 2 * positions + twist;
       add(i, 3, positions + twist);

@@ -29,7 +29,7 @@ StaticProblem::StaticProblem(const System& system)
     };
   }
   if (!any) return;
-  turning_.emplace(std::move(turning), system.model().from);
+  turning_.emplace(std::move(turning), model_of(system).from);
   turning_work_ = turning_->make_workspace();
 }
 
@@ -74,7 +74,7 @@ Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time,
   if (const Evaluation e = bent(at.state.time, before); !e.ok()) return e;
   if (const Evaluation e = bent(there.time, after); !e.ok()) return e;
   if (const Evaluation e = loads_.add(there, loads, energy, *work_); !e.ok()) return e;
-  for (const Anchor& anchor : system_.model().anchors) {
+  for (const Anchor& anchor : model_of(system_).anchors) {
     if (!anchor.motion || !anchor.holds_position || elastic_.cols() != at.gradient.size()) continue;
     const auto node = static_cast<Eigen::Index>(system_.rods()[anchor.rod].first + anchor.node);
     const Vec3 move = anchor.motion(there.time).position - anchor.motion(at.state.time).position;

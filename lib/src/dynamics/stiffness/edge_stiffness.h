@@ -31,13 +31,13 @@ struct EdgeStiffness {
 /// With `viscous` the workspace must hold the rates and the gradient with its viscous part: then what is
 /// weighted with slopes counts that part too. How the directions of the viscous forces turn:
 /// turned_resistance.
-void edge_stiffness(const System::Model& model, const NodeRange& rod, std::size_t i, const State& reference,
+void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
                     const System::Workspace& work, bool viscous, EdgeStiffness& to);
 
 /// Resistance of edge i in the same coordinates: sum k grad q grad q^T over stretch, the two deviations and
 /// the twist. Times the viscosity it is minus the viscous forces' derivative by the velocities.
-void edge_resistance(const System::Model& model, const NodeRange& rod, std::size_t i,
-                     const System::Workspace& work, EdgeStiffness& to);
+void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, const System::Workspace& work,
+                     EdgeStiffness& to);
 
 /// Gradients of what the bending and twist springs of one edge see (the two deviations at either end, the
 /// twist), in the coordinates of EdgeStiffness.
@@ -49,7 +49,7 @@ struct EdgeSlopes {
 
 /// At any state near the reference, so that their rate along a motion is the derivative of q' by the
 /// coordinates; the workspace must hold its places and frames.
-void edge_slopes(const System::Model& model, const NodeRange& rod, std::size_t i, const State& reference,
+void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
                  const System::Workspace& work, EdgeSlopes& to);
 
 /// How the directions of edge i's viscous bending and twist turn: sum k grad q (d grad q / dt)^T, q' being
@@ -60,25 +60,24 @@ struct TurnedResistance {
   Vec3 by_angle[5][2], of_angle[2][5];
   double angles[2][2];
 };
-void turned_resistance(const System::Model& model, const NodeRange& rod, std::size_t i,
-                       const EdgeSlopes& slopes, const EdgeSlopes& rates, TurnedResistance& to);
+void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, const EdgeSlopes& slopes,
+                       const EdgeSlopes& rates, TurnedResistance& to);
 
 /// Stretch of edge i, by the vector d along it: k e e^T + k (1 - L / l) (1 - e e^T).
-Mat3 stretch_stiffness(const System::Model& model, std::size_t i, const System::Workspace& work);
+Mat3 stretch_stiffness(const Model& model, std::size_t i, const System::Workspace& work);
 
 /// Derivative of the viscous pull k beta (e.v) e of edge i by the vector d along it, v its rate:
 /// k beta (e (v - (e.v) e)^T + (e.v) (1 - e e^T)) / l. Needs the velocities.
-Mat3 turned_pull(const System::Model& model, std::size_t i, const System::Workspace& work);
+Mat3 turned_pull(const Model& model, std::size_t i, const System::Workspace& work);
 
 /// 1/4 K phi^2 at node i of a rod without twist, by the vectors along its two edges.
 struct HingeStiffness {
   Mat3 first, mixed, second;
 };
-HingeStiffness hinge_stiffness(const System::Model& model, std::size_t i, const System::Workspace& work);
+HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const System::Workspace& work);
 
 /// 1/2 K angle^2 between edge i and the held frame of `node` at one of its ends, by the vector along the
 /// edge.
-Mat3 held_hinge_stiffness(const System::Model& model, std::size_t node, std::size_t i,
-                          const System::Workspace& work);
+Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const System::Workspace& work);
 
 }  // namespace tendril

@@ -5,7 +5,6 @@
 namespace tendril {
 namespace {
 
-using Model = System::Model;
 using Workspace = System::Workspace;
 
 Mat3 projector(const Vec3& n) {

@@ -7,7 +7,7 @@ namespace {
 
 /// Gathers entries in the order of System::elastic_gradient.
 struct Triplets {
-  explicit Triplets(const System::Model& m) : model(m) { entries.reserve(196 * m.nodes); }
+  explicit Triplets(const Model& m) : model(m) { entries.reserve(196 * m.nodes); }
 
   void block(std::size_t row, std::size_t column, const Mat3& k) {
     for (Eigen::Index r = 0; r < 3; ++r)
@@ -23,7 +23,7 @@ struct Triplets {
     entries.emplace_back(angle(row), angle(column), k);
   }
 
-  const System::Model& model;
+  const Model& model;
   std::vector<Eigen::Triplet<double>> entries;
 
  private:
@@ -35,7 +35,7 @@ struct Triplets {
 
 Evaluation elastic_stiffness(const System& system, const State& state, Eigen::SparseMatrix<double>& stiffness,
                              System::Workspace& work) {
-  const System::Model& model = system.model();
+  const Model& model = model_of(system);
   double energy = 0.0;
   Eigen::VectorXd gradient;
   if (const Evaluation at = system.elastic_gradient(state, state.time, state.y, energy, gradient, work);

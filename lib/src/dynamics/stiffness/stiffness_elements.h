@@ -72,8 +72,8 @@ void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sin
 
 /// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
 template <class Sink>
-void visit_stiffness(const System::Model& model, const State& reference, const System::Workspace& work,
-                     bool viscous, double scale, Sink& sink) {
+void visit_stiffness(const Model& model, const State& reference, const System::Workspace& work, bool viscous,
+                     double scale, Sink& sink) {
   EdgeStiffness edge;
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
@@ -94,7 +94,7 @@ void visit_stiffness(const System::Model& model, const State& reference, const S
 
 /// The same for the resistance, times minus the viscosity.
 template <class Sink>
-void visit_resistance(const System::Model& model, const System::Workspace& work, Sink& sink) {
+void visit_resistance(const Model& model, const System::Workspace& work, Sink& sink) {
   EdgeStiffness edge;
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {

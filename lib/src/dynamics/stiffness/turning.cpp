@@ -26,8 +26,7 @@ Mat3 project_left(const Mat3& a, const Vec3& e) {
 //   M = -s^2 ((g_s / 2 + I w t.b') [t]x + I w (2 g t^T + t g^T)),
 // with b' = s (e_0' + e_1') and V_j = -(e_j.d_j' / |d_j| (1 - e e^T) + e' e^T + e e'^T) / |d_j| the
 // derivative of e_j' by d_j.
-TurningTerms turning_terms(const System::Model& model, std::size_t i, double g_spin,
-                           const System::Workspace& work) {
+TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const System::Workspace& work) {
   const Vec3 t = work.frame.z[i];
   const Vec3 t_rate = work.t_rate(i);
   const double s = work.inverse_bisector[i];

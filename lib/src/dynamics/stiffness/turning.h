@@ -20,7 +20,6 @@ struct TurningTerms {
 };
 
 /// Needs the workspace's kinematics with all rates.
-TurningTerms turning_terms(const System::Model& model, std::size_t i, double g_spin,
-                           const System::Workspace& work);
+TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const System::Workspace& work);
 
 }  // namespace tendril

@@ -14,7 +14,7 @@ namespace tendril {
 /// of times as many are needed. How fast grad q turns is taken by a central difference along the motion.
 class ViscousTurning {
  public:
-  explicit ViscousTurning(const System::Model& model) : model_(model) {
+  explicit ViscousTurning(const Model& model) : model_(model) {
     for (auto& slopes : slopes_) slopes.resize(model.nodes);
   }
 
@@ -79,7 +79,7 @@ class ViscousTurning {
     return 1e-5 / fastest;
   }
 
-  const System::Model& model_;
+  const Model& model_;
   Eigen::VectorXd moved_;
   std::vector<EdgeSlopes> slopes_[2];  ///< by the first node of the edge
   TurnedResistance turned_;

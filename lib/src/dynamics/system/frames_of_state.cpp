@@ -6,7 +6,6 @@ namespace tendril {
 namespace {
 
 using Workspace = System::Workspace;
-using Model = System::Model;
 
 /// Director of the node of a rod without twist state that the others follow: held, or carried in time.
 Vec3 director_of_seed(const Model& model, const State& state, std::size_t seed, const Workspace& work) {

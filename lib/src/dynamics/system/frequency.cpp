@@ -13,7 +13,7 @@ namespace {
 
 /// The free coordinates of a system, weighted by the square roots of their masses: there M^-1 K is symmetric.
 struct MassMetric {
-  explicit MassMetric(const System::Model& model) {
+  explicit MassMetric(const Model& model) {
     for (std::size_t i = 0; i < model.nodes; ++i) {
       if (model.holds_position(i)) continue;
       const auto at = 3 * static_cast<Eigen::Index>(i);
@@ -41,8 +41,7 @@ struct MassMetric {
 /// -M^-1/2 K M^-1/2 about a state, by central differences of the accelerations at rest.
 class WeightedStiffness {
  public:
-  WeightedStiffness(const System& system, const System::Model& model, const State& state,
-                    System::Workspace& work)
+  WeightedStiffness(const System& system, const Model& model, const State& state, System::Workspace& work)
       : metric(model), system_(system), state_(state), work_(work), y_(state.y) {
     y_.segment(model.v_begin(), model.v_begin()).setZero();
     y_.segment(model.spin_begin(), static_cast<Eigen::Index>(model.twist_nodes)).setZero();

@@ -10,7 +10,6 @@ namespace tendril {
 namespace {
 
 using Workspace = System::Workspace;
-using Model = System::Model;
 
 }  // namespace
 

@@ -18,8 +18,6 @@
 namespace tendril {
 namespace {
 
-using Model = System::Model;
-
 /// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
 std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
   const NodeRange& nodes = model.rods[rod];
@@ -129,7 +127,7 @@ class BlockSolver : public StiffSolver {
  public:
   BlockSolver(const System& system, System::Workspace& work)
       : system_(system),
-        model_(system.model()),
+        model_(model_of(system)),
         work_(work),
         loaded_(model_.loaded && depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_),

@@ -14,7 +14,7 @@ namespace tendril {
 template <int B>
 class Differences {
  public:
-  Differences(const System::Model& model, const BlockPattern& pattern)
+  Differences(const Model& model, const BlockPattern& pattern)
       : model_(model), kinds_(model.twist_nodes > 0 ? 7 : 6) {
     neighbours_.resize(pattern.size());
     for (std::size_t k = 0; k < pattern.size(); ++k) {
@@ -93,7 +93,7 @@ class Differences {
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  const System::Model& model_;
+  const Model& model_;
   std::size_t kinds_;
   double length_ = 0.0;
   std::vector<std::vector<std::size_t>> neighbours_;  ///< per node, itself first

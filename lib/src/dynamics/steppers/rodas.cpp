@@ -38,10 +38,10 @@ constexpr std::array<std::array<double, 5>, 6> kC{{
 struct Rodas::Implementation {
   explicit Implementation(const System& s)
       : system(s), work(s.make_workspace()), solver(make_stiff_solver(s, *work)) {
-    const System::Model& model = s.model();
+    const Model& model = model_of(s);
     for (const auto& force : s.scene().forces) works = works || !force->has_energy();
     for (const Anchor& anchor : model.anchors) moves = moves || anchor.motion;
-    for (const System::Model::Segment& segment : model.segments) resists = resists || segment.viscous;
+    for (const Model::Segment& segment : model.segments) resists = resists || segment.viscous;
     for (const Joint& joint : s.scene().joints) moves = moves || !joint.reaction;
     works = works || moves || resists || model.damped;
   }
@@ -63,7 +63,7 @@ struct Rodas::Implementation {
   /// Takes over the derivative at the last step's end where the state is that end, rebased: only the angles
   /// are counted from a new reference.
   bool arrived(const State& state) {
-    const System::Model& model = system.model();
+    const Model& model = model_of(system);
     if (end.size() == 0 || state.time != end_time) return false;
     const Eigen::Index places = model.theta_begin();
     const Eigen::Index rest = model.spin_begin();
@@ -103,7 +103,7 @@ struct Rodas::Implementation {
   /// Work done over the step, by Simpson's rule with the cubic through both ends' positions and velocities.
   Evaluation add_work(const State& state, double h, Eigen::VectorXd& y) {
     if (!works) return {};
-    const System::Model& model = system.model();
+    const Model& model = model_of(system);
     const Eigen::Index last = y.size() - 1;
     const auto n = model.v_begin();
     const auto m = static_cast<Eigen::Index>(model.twist_nodes);

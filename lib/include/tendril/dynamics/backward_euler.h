@@ -1,0 +1,28 @@
+#pragma once
+
+#include <tendril/dynamics/stepper.h>
+
+namespace tendril {
+
+/// v' = v + h a(t', p', v'), p' = p + h v', the spins and directors alike. Order 1, stable at every step and
+/// strongly dissipating: a comparator.
+///
+/// Newton on the 3n + m new velocities and spins with a dense matrix from forward differences: 3n + m
+/// evaluations and 2/3 (3n + m)^3 operations whenever the kept one converges slowly, 2 (3n + m)^2 operations
+/// an iteration; any force and any tree, but not for many nodes. Outcome not_converged when no matrix renewed
+/// on the way helps: then a shorter step will.
+class BackwardEuler : public Stepper {
+ public:
+  explicit BackwardEuler(const System& system);
+  ~BackwardEuler() override;
+  Evaluation advance(State& state, double h) override;
+  void restart() override;
+  long evaluations() const override;
+  const char* name() const override { return "backward Euler"; }
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace tendril

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <tendril/dynamics/stepper.h>
+
+#include <string_view>
+
+namespace tendril {
+
+/// The methods a run can be told to use.
+enum class Method { cash_karp, rodas, automatic, verlet, runge_kutta4, explicit_euler, backward_euler };
+
+/// The largest steps h at which a method amplifies no motion x'' + (alpha + beta w^2) x' + w^2 x = 0.
+/// Infinite where there is no such step; 0 where every step amplifies.
+struct StabilityLimits {
+  double oscillation;  ///< of h w, undamped
+  double decay;        ///< of h (alpha + beta w^2), where damping overwhelms the oscillation
+};
+
+/// What a method decides on the way: nothing (its steps are of a size given), its steps by an estimate of
+/// their error, or which method goes on as well.
+enum class Chooses { nothing, steps, method };
+
+/// A row of the table of methods. The row of a method that chooses methods is that of the one it begins with.
+struct MethodInfo {
+  Method method;
+  const char* name;  ///< as in scene files
+  int stages;  ///< evaluations a step at least: Verlet needs a second one where forces depend on velocities
+  int order;   ///< the error at a given time goes with the step to this power
+  StabilityLimits stability;
+  bool stiff;  ///< damps what it does not resolve, at any step
+  Chooses chooses;
+  std::unique_ptr<Stepper> (*make)(const System& system);  ///< the system is kept by reference
+};
+
+/// The table, a row per method in the order of the enumeration. A new method of the library is a stepper, an
+/// enumerator above and its row; whoever offers methods to choose from goes through the rows.
+std::span<const MethodInfo> methods();
+const MethodInfo& info(Method method);
+/// The row of that name; nullptr where none has it.
+const MethodInfo* find_method(std::string_view name);
+
+const char* to_string(Method method);
+
+/// True for the methods that estimate their error and choose their steps by it.
+bool chooses_steps(Method method);
+
+/// A stepper for the method. \param system  kept by reference
+std::unique_ptr<Stepper> make_stepper(Method method, const System& system);
+
+}  // namespace tendril
