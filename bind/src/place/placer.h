@@ -27,18 +27,21 @@ class Placer {
   void some(std::span<const std::uint32_t> points, Row* out) const;
   Triple<T> one(std::size_t point) const;
 
- private:
   using Pieces = std::vector<Piece<T>>;
+  /// Slots [begin, end) of an order of nearest projections, the first of them to out[0]; blends are left out.
   void place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
              std::size_t end, const ColumnsView<T>& out) const;
+  /// \param piece_of  of a span's index
+  template <class PieceOf>
+  Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
+
+ private:
   void mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
             const ColumnsView<T>& out) const;
   Triple<T> place_by_rule(std::uint32_t entry) const;
   template <class PieceOf>
   Triple<T> place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
                        std::size_t slot) const;
-  template <class PieceOf>
-  Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
   template <class Access>
   void blend(const Pieces& pieces, const Access& access, int threads) const;
   template <class Other>
@@ -68,7 +71,6 @@ void Placer<T>::mend(const Piece<T>& piece, const Order& order, const Records<T>
   }
 }
 
-/// Slots [begin, end), the first of them to out[0].
 template <class T>
 void Placer<T>::place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
                       std::size_t end, const ColumnsView<T>& out) const {

@@ -1,0 +1,157 @@
+#include "slab_table.h"
+
+#include <tendril/base/error.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tendril::collision {
+namespace {
+
+// A slab reaches over its ends, as which slab a parameter belongs to is rounded. Of the span's length.
+constexpr double kOver = 1e-12;
+
+/// The weight of control point i in the blossom of the span's piece at `arguments`: de Boor's triangle.
+double blossom(const KnotVector& knots, int span, std::size_t i, const std::array<double, kMaxDegree>& at) {
+  const auto p = static_cast<std::size_t>(knots.degree());
+  const double* knot = knots.knots().data() + span;
+  std::array<double, kMostControls> d{};
+  d[i] = 1.0;
+  for (std::size_t level = 1; level <= p; ++level)
+    for (std::size_t j = p; j >= level; --j) {
+      const double left = knot[static_cast<std::ptrdiff_t>(j) - static_cast<std::ptrdiff_t>(p)];
+      const double right = knot[j + 1 - level];
+      const double w = (at[level - 1] - left) / (right - left);
+      d[j] = (1.0 - w) * d[j - 1] + w * d[j];
+    }
+  return d[p];
+}
+
+SlabWeights weights_of(const KnotVector& knots, int span, double from, double to) {
+  const auto p = static_cast<std::size_t>(knots.degree());
+  const double a = knots.knots()[static_cast<std::size_t>(span)];
+  const double length = knots.knots()[static_cast<std::size_t>(span) + 1] - a;
+  SlabWeights weights;
+  weights.width = to - from;
+  std::array<double, kMaxDegree> at{};
+  for (std::size_t j = 0; j <= p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) at[k] = a + length * (k < p - j ? from : to);
+    for (std::size_t i = 0; i <= p; ++i) weights.row[j][i] = blossom(knots, span, i, at);
+  }
+  return weights;
+}
+
+bool same(const Vec3* a, const Vec3* b, std::size_t count) {
+  return std::equal(a, a + count, b,
+                    [](const Vec3& x, const Vec3& y) { return (x.array() == y.array()).all(); });
+}
+
+SpanControls controls_of(const Vec3* u, const Vec3* v, std::size_t count) {
+  SpanControls out;
+  out.count = count;
+  out.base = u[count / 2];
+  for (std::size_t i = 0; i < count; ++i) {
+    out.c[i] = u[i] - out.base;
+    out.n[i] = v[i] - u[i];
+    out.reach = std::max(out.reach, out.c[i].norm());
+    out.offset = std::max(out.offset, out.n[i].norm());
+    out.origin = std::max(out.origin, std::max(u[i].norm(), v[i].norm()));
+  }
+  return out;
+}
+
+std::size_t spans_of(std::span<const CurvePair> rest) {
+  std::size_t count = 0;
+  for (const CurvePair& pair : rest) count += pair.knots().nonempty_spans().size();
+  return count;
+}
+
+}  // namespace
+
+SlabTable::SlabTable(std::span<const CurvePair> rest, std::size_t wanted) {
+  const std::size_t per_span = std::max<std::size_t>(1, wanted / spans_of(rest));
+  for (const CurvePair& pair : rest) add_pair(pair, per_span);
+  slabs_.resize(weights_.size());
+}
+
+void SlabTable::add_pair(const CurvePair& rest, std::size_t per_span) {
+  const KnotVector& knots = rest.knots();
+  PairSpans pair{knots, std::vector<std::uint32_t>(knots.knots().size()), {}, {}, 0};
+  pair.first_span = static_cast<std::uint32_t>(spans_.size());
+  for (const int at : knots.nonempty_spans()) {
+    const auto index = static_cast<std::size_t>(at);
+    const double begin = knots.knots()[index], length = knots.knots()[index + 1] - begin;
+    pair.span_at[index] = static_cast<std::uint32_t>(spans_.size());
+    spans_.push_back({static_cast<std::uint32_t>(pairs_.size()), static_cast<std::uint32_t>(weights_.size()),
+                      static_cast<std::uint32_t>(per_span), index - static_cast<std::size_t>(knots.degree()),
+                      static_cast<std::size_t>(knots.degree()) + 1, begin, length});
+    for (std::size_t k = 0; k < per_span; ++k) {
+      const double part = 1.0 / static_cast<double>(per_span), from = static_cast<double>(k) * part;
+      weights_.push_back(weights_of(knots, at, from - kOver, from + part + kOver));
+      span_of_.push_back(static_cast<std::uint32_t>(spans_.size() - 1));
+    }
+  }
+  pairs_.push_back(std::move(pair));
+}
+
+std::uint32_t SlabTable::slab_of(std::uint32_t pair, double t) const {
+  const Span& span = spans_[pairs_[pair].span_at[static_cast<std::size_t>(pairs_[pair].knots.span(t))]];
+  const double at = (t - span.begin) / span.length * span.slabs;
+  return span.first_slab + static_cast<std::uint32_t>(std::clamp(at, 0.0, span.slabs - 1.0));
+}
+
+void SlabTable::make(Span& span, const CurvePair& posed) {
+  const SpanControls controls =
+      controls_of(posed.primary().control_points().data() + span.first_control,
+                  posed.orientation().control_points().data() + span.first_control, span.count);
+  span.framed = true;
+  for (std::size_t i = span.first_slab; i < span.first_slab + span.slabs; ++i) {
+    slabs_[i] = bound_slab(controls, weights_[i]);
+    span.framed = span.framed && slabs_[i].framed;
+  }
+  made_ += span.slabs;
+}
+
+void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
+  if (posed.size() != pairs_.size())
+    throw InvalidInput("posed", std::to_string(posed.size()) + " curve-pairs", std::to_string(pairs_.size()));
+  for (std::size_t k = 0; k < posed.size(); ++k)
+    if (posed[k].knots() != pairs_[k].knots)
+      throw InvalidInput("posed curve-pair", "other knots", "those of the rest");
+  made_ = 0;
+  oldest_ = frame;
+  for (Span& span : spans_) {
+    const PairSpans& pair = pairs_[span.pair];
+    const Points u = posed[span.pair].primary().control_points();
+    const Points v = posed[span.pair].orientation().control_points();
+    const auto unmoved = [&](std::size_t from, std::size_t count) {
+      return span.changed > 0 && same(u.data() + from, pair.primary.data() + from, count) &&
+             same(v.data() + from, pair.orientation.data() + from, count);
+    };
+    // Where a frame is near degenerate, all control points of its curve-pair may have a say.
+    const bool kept = span.framed ? unmoved(span.first_control, span.count) : unmoved(0, u.size());
+    if (!kept) {
+      make(span, posed[span.pair]);
+      span.changed = frame;
+    }
+    oldest_ = std::min(oldest_, span.changed);
+  }
+  for (std::size_t k = 0; k < posed.size(); ++k) {
+    const Points u = posed[k].primary().control_points(), v = posed[k].orientation().control_points();
+    pairs_[k].primary.assign(u.begin(), u.end());
+    pairs_[k].orientation.assign(v.begin(), v.end());
+  }
+}
+
+std::uint32_t SlabTable::last_change(std::uint32_t first, std::uint32_t last) const {
+  std::uint32_t frame = 0;
+  for (std::size_t k = span_of_[first]; k <= span_of_[last]; ++k) frame = std::max(frame, spans_[k].changed);
+  return frame;
+}
+
+std::size_t SlabTable::unframed() const {
+  return static_cast<std::size_t>(
+      std::count_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.framed; }));
+}
+
+}  // namespace tendril::collision

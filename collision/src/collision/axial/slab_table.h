@@ -1,0 +1,62 @@
+#pragma once
+
+#include <tendril/curve/curve_pair.h>
+
+#include <cstdint>
+
+#include "slab.h"
+
+namespace tendril::collision {
+
+/// The slabs of some curve-pairs, every span of their knots cut into equal parts; all that a frame costs
+/// before the first query. Slabs are numbered along each curve-pair, and from one to the next.
+class SlabTable {
+ public:
+  /// \param rest    at least one
+  /// \param wanted  slabs in all; as many as there are spans at least
+  SlabTable(std::span<const CurvePair> rest, std::size_t wanted);
+
+  std::size_t size() const { return slabs_.size(); }
+  std::size_t pair_count() const { return pairs_.size(); }
+  const Slab& operator[](std::size_t slab) const { return slabs_[slab]; }
+  std::uint32_t slab_of(std::uint32_t pair, double t) const;
+  std::uint32_t pair_of(std::size_t slab) const { return spans_[span_of_[slab]].pair; }
+
+  /// Makes the slabs whose control points are no longer the same doubles; O(slabs made + control points).
+  /// InvalidInput unless the curve-pairs are on the knots of the rest. \param frame  ascending, above 0
+  void pose(std::span<const CurvePair> posed, std::uint32_t frame);
+
+  /// The last frame in which a point of the slabs [first, last] may have moved.
+  std::uint32_t last_change(std::uint32_t first, std::uint32_t last) const;
+  /// The least of these over all slabs.
+  std::uint32_t oldest_change() const { return oldest_; }
+  std::size_t made() const { return made_; }
+  std::size_t unframed() const;
+
+ private:
+  struct PairSpans {
+    KnotVector knots;
+    std::vector<std::uint32_t> span_at;  ///< of each knot index
+    std::vector<Vec3> primary, orientation;
+    std::uint32_t first_span = 0;
+  };
+  struct Span {
+    std::uint32_t pair, first_slab, slabs;
+    std::size_t first_control, count;
+    double begin, length;
+    std::uint32_t changed = 0;
+    bool framed = false;  ///< all slabs are: nothing but these control points matters
+  };
+  void add_pair(const CurvePair& rest, std::size_t per_span);
+  void make(Span& span, const CurvePair& posed);
+
+  std::vector<PairSpans> pairs_;
+  std::vector<Span> spans_;
+  std::vector<SlabWeights> weights_;
+  std::vector<Slab> slabs_;
+  std::vector<std::uint32_t> span_of_;
+  std::uint32_t oldest_ = 0;
+  std::size_t made_ = 0;
+};
+
+}  // namespace tendril::collision

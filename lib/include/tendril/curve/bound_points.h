@@ -1,0 +1,58 @@
+#pragma once
+
+#include <tendril/curve/axial.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tendril {
+
+/// One of the places that a point is bound to: a record on a curve-pair and its part in the point.
+struct BoundPlace {
+  std::uint32_t pair;
+  double weight;
+  AxialPoint record;
+};
+
+/// Points that follow curve-pairs, in groups that are placed each alone: what a hierarchy needs of a bound
+/// mesh that it deforms where it is touched.
+class PointGroups {
+ public:
+  virtual ~PointGroups() = default;
+
+  /// The curve-pairs that place() uses from now on; O(spans). They are not needed after the call.
+  /// \param posed  on the knots of the rest, as many as there were; else InvalidInput
+  virtual void pose(std::span<const CurvePair> posed) = 0;
+
+  /// The points of a group in the order they were given, bit for bit where an update of all puts them.
+  /// \param out  as many as the group has
+  virtual void place(std::size_t group, MutablePoints out) const = 0;
+};
+
+/// Points bound to curve-pairs. A point is p_0 + sum_k w_k (p_k - p_0) over its places k = 1, 2, ..., the w_k
+/// at least 0 and their sum at most 1 up to rounding; p_k = c(t) + u l_x + v l_y + w l_z.
+///
+/// What an implementation promises, and a bound on positions rests on. For a place in a span of the knots
+/// (that of KnotVector::span) whose control points U_i of c and V_i of c_D are at most M from the origin, the
+/// computed p differs from that of exact arithmetic by at most
+///   2^-36 M + 2^-36 M (|u| + |v| + |w|) ((1 + |n| / n') / |dc/ds| + 1 / n'),
+/// with ds the parameter in units of the span, n = c_D - c, n' its part across the tangent; and depends on
+/// these control points alone wherever |dc/ds| and n' are at least 1/64 of the largest |U_i - U_j| and
+/// |V_i - U_i|. Anywhere, |p - c| is at most |u| + |v| + |w| up to 2^-36 of it: whatever became of the frame,
+/// its axes have length 1. A record with w below 1e-15 of the size may be taken to have w = 0.
+class BoundPoints {
+ public:
+  virtual ~BoundPoints() = default;
+
+  virtual std::size_t size() const = 0;
+  /// The places of a point, p_0 first; `out` is overwritten.
+  virtual void places(std::size_t point, std::vector<BoundPlace>& out) const = 0;
+
+  /// Group g are the points[begin[g], begin[g + 1]); a point may be in several.
+  virtual std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,
+                                             std::span<const std::uint32_t> points) const = 0;
+};
+
+}  // namespace tendril
