@@ -1,7 +1,8 @@
 # One way of using tendril from outside, from an empty folder to a program that ran:
-#   cmake -DCONFIG=<file> -DCASE=<installed|subdirectory|core_only|refused> [-DCOMPONENTS=... -DEXPECTED=...]
+#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|core_only|refused> [-DCOMPONENTS=... -DEXPECTED=...]
 #         -DWORK=<folder> -DPREFIX=<folder> -P consumer.cmake
-# CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, and COMMON (compiler, flags, build type).
+# CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, NM, READELF, VERSION, and COMMON (compiler, flags, build
+# type).
 cmake_minimum_required(VERSION 3.25)
 include(${CONFIG})
 set(here ${CMAKE_CURRENT_LIST_DIR})
@@ -31,6 +32,36 @@ function(run_consumers)
   endforeach()
 endfunction()
 
+# The components as shared libraries, from the source to a prefix.
+function(build_shared)
+  set(options -DBUILD_SHARED_LIBS=ON -DTENDRIL_TESTS=OFF -DTENDRIL_EXAMPLES=OFF -DCMAKE_INSTALL_LIBDIR=lib)
+  foreach(component bind axis collision)
+    string(TOUPPER TENDRIL_${component} option)
+    if(component IN_LIST COMPONENTS)
+      list(APPEND options -D${option}=ON)
+    else()
+      list(APPEND options -D${option}=OFF)
+    endif()
+  endforeach()
+  configure_and_build(${SOURCE} ${options})
+  foreach(component IN LISTS COMPONENTS)
+    run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/prefix --component ${component})
+  endforeach()
+  file(REMOVE_RECURSE ${WORK}/build)
+endfunction()
+
+# Each library's soname carries the version that says what it is compatible with.
+function(check_sonames)
+  string(REGEX MATCH "^[0-9]+[.][0-9]+" compatible "${VERSION}")
+  foreach(library IN LISTS ARGN)
+    execute_process(COMMAND ${READELF} -d ${library} OUTPUT_VARIABLE text)
+    cmake_path(GET library FILENAME name)
+    if(NOT text MATCHES "SONAME[^\n]*\\[${name}[.]${compatible}\\]")
+      message(FATAL_ERROR "${library} has no soname ${name}.${compatible}: ${text}")
+    endif()
+  endforeach()
+endfunction()
+
 # No file that entered the compilation belongs to CGAL or Boost. Eigen does: the listing is not empty.
 function(check_dependencies)
   execute_process(COMMAND ${NINJA} -C ${WORK}/build -t deps OUTPUT_VARIABLE files RESULT_VARIABLE code)
@@ -51,6 +82,14 @@ if(CASE STREQUAL "installed")
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component ${COMPONENTS})
   endif()
   configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=${COMPONENTS})
+  run_consumers(${COMPONENTS})
+elseif(CASE STREQUAL "shared")
+  string(REPLACE " " ";" COMPONENTS "${COMPONENTS}")
+  build_shared()
+  list(TRANSFORM COMPONENTS REPLACE "(.+)" "${WORK}/prefix/lib/libtendril_\\1.so" OUTPUT_VARIABLE libraries)
+  run(${CMAKE_COMMAND} -DNM=${NM} "-DLIBRARIES=${libraries}" -P ${SOURCE}/tests/architecture/symbols.cmake)
+  check_sonames(${libraries})
+  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix "-DCOMPONENTS=${COMPONENTS}")
   run_consumers(${COMPONENTS})
 elseif(CASE STREQUAL "subdirectory")
   configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF)

@@ -35,7 +35,7 @@ struct Found {
   }
 };
 
-void project(const CurvePair& rest, Points points, int threads, Binding::Layout& layout, Found& found) {
+void project(const CurvePair& rest, Points points, int threads, BindingLayout& layout, Found& found) {
   const CurveProjector projector(rest.primary());
   layout.entries.resize(points.size());
   in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
@@ -48,7 +48,7 @@ void project(const CurvePair& rest, Points points, int threads, Binding::Layout&
 }
 
 /// Room for the places in use of every point.
-void lay_out(const Branches& branches, bool with_pairs, Binding::Layout& layout) {
+void lay_out(const Branches& branches, bool with_pairs, BindingLayout& layout) {
   for (std::uint32_t i = 0; i < layout.size; ++i) {
     const std::size_t others = branches.influences[i].size();
     if (others == 0) continue;
@@ -65,7 +65,7 @@ void lay_out(const Branches& branches, bool with_pairs, Binding::Layout& layout)
 }
 
 void share(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options,
-           Binding::Layout& layout, Found& found, BindReport& report) {
+           BindingLayout& layout, Found& found, BindReport& report) {
   std::vector<CurveProjector> projectors;
   for (const CurvePair& pair : rest) projectors.emplace_back(pair.primary());
   Branches branches = find_branches(projectors, mesh, options.band, options.threads);
@@ -113,14 +113,13 @@ void inspect(std::span<const CurvePair> rest, Points points, int threads, const 
     if (!at_end && found.lambda[i] <= 0.0) report.past_focus.push_back(id);
     if (pair.frame(t).status != FrameStatus::ok) report.degenerate.push_back(id);
   }
-  report.places = binding.layout().entries.size();
 }
 
 }  // namespace
 
 Binding::Binding(const CurvePair& rest, Points points, int threads) {
   check(points, threads);
-  auto layout = std::make_shared<Layout>();
+  auto layout = std::make_shared<BindingLayout>();
   Found found(points.size());
   layout->size = points.size();
   layout->knots.push_back(rest.knots());
@@ -128,6 +127,7 @@ Binding::Binding(const CurvePair& rest, Points points, int threads) {
   layout->arrange(kInPlane * bounding_diagonal(points));
   layout_ = std::move(layout);
   inspect({&rest, 1}, points, threads, *this, found, report_);
+  report_.places = layout_->entries.size();
 }
 
 Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options) {
@@ -136,7 +136,7 @@ Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const
   if (rest.empty()) throw InvalidInput("rest", "no curve-pair", "at least one");
   if (!(options.band > 0.0 && options.band <= 1.0))
     throw InvalidInput("band", std::to_string(options.band), "above 0, at most 1");
-  auto layout = std::make_shared<Layout>();
+  auto layout = std::make_shared<BindingLayout>();
   Found found(mesh.points.size());
   layout->size = mesh.points.size();
   for (const CurvePair& pair : rest) layout->knots.push_back(pair.knots());
@@ -147,6 +147,7 @@ Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const
   layout->arrange(kInPlane * bounding_diagonal(mesh.points));
   layout_ = std::move(layout);
   inspect(rest, mesh.points, options.threads, *this, found, report_);
+  report_.places = layout_->entries.size();
 }
 
 std::size_t Binding::size() const {
@@ -172,7 +173,7 @@ std::span<const std::uint32_t> Binding::order() const {
 std::vector<Share> Binding::shares(std::size_t point) const {
   layout_->require_point(point);
   std::vector<Share> result{{pair_of(point), 1.0, records()[point]}};
-  const Layout::Blend* blend = layout_->blend_of(point);
+  const BindingLayout::Blend* blend = layout_->blend_of(point);
   if (!blend) return result;
   for (std::size_t k = blend->begin; k < blend->end; ++k) {
     const std::size_t entry = layout_->size + k;

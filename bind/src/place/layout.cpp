@@ -55,13 +55,13 @@ const Run& Order::run_of(std::size_t slot) const {
   return *std::prev(after);
 }
 
-const Binding::Layout::Blend* Binding::Layout::blend_of(std::size_t point) const {
+const BindingLayout::Blend* BindingLayout::blend_of(std::size_t point) const {
   const auto found = std::lower_bound(blends.begin(), blends.end(), point,
                                       [](const Blend& blend, std::size_t p) { return blend.point < p; });
   return found != blends.end() && found->point == point ? &*found : nullptr;
 }
 
-void Binding::Layout::arrange(double negligible) {
+void BindingLayout::arrange(double negligible) {
   Spans all(knots);
   const auto order_of = [&](std::size_t first, std::size_t count) {
     std::vector<std::uint32_t> key(count);
@@ -94,7 +94,7 @@ void Binding::Layout::arrange(double negligible) {
   numbers.others = fill(others, size, other_slot);
 }
 
-void Binding::Layout::require_same_knots(std::span<const CurvePair> posed) const {
+void BindingLayout::require_same_knots(std::span<const CurvePair> posed) const {
   if (posed.size() != knots.size())
     throw InvalidInput("posed", std::to_string(posed.size()) + " curve-pairs", std::to_string(knots.size()));
   for (std::size_t k = 0; k < posed.size(); ++k)
@@ -102,7 +102,7 @@ void Binding::Layout::require_same_knots(std::span<const CurvePair> posed) const
       throw InvalidInput("posed curve-pair", "other knots", "those it was bound with");
 }
 
-void Binding::Layout::require_point(std::size_t point) const {
+void BindingLayout::require_point(std::size_t point) const {
   if (point >= size) throw InvalidInput("point", std::to_string(point), "less than " + std::to_string(size));
 }
 

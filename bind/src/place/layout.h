@@ -23,7 +23,7 @@ struct Order {
 
 /// A binding on flat arrays. Its entries are the nearest projection of every point, then the other places in
 /// use, point after point.
-struct Binding::Layout {
+struct BindingLayout {
   std::vector<KnotVector> knots;  ///< of each curve-pair
   std::size_t size = 0;           ///< points
   std::vector<AxialPoint> entries;

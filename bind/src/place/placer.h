@@ -10,8 +10,8 @@ namespace tendril::bind {
 template <class T>
 class Placer {
  public:
-  using Numbers = Binding::Layout::Numbers<T>;
-  Placer(const Binding::Layout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
+  using Numbers = BindingLayout::Numbers<T>;
+  Placer(const BindingLayout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
       : layout_(layout), numbers_(numbers), posed_(posed) {
     layout.require_same_knots(posed);
   }
@@ -45,9 +45,9 @@ class Placer {
   template <class Access>
   void blend(const Pieces& pieces, const Access& access, int threads) const;
   template <class Other>
-  Triple<T> mix(const Binding::Layout::Blend& blend, const Triple<T>& base, const Other& other) const;
+  Triple<T> mix(const BindingLayout::Blend& blend, const Triple<T>& base, const Other& other) const;
 
-  const Binding::Layout& layout_;
+  const BindingLayout& layout_;
   const Numbers& numbers_;
   std::span<const CurvePair> posed_;
 };
@@ -98,8 +98,7 @@ Triple<T> Placer<T>::place_slot(const PieceOf& piece_of, const Order& order, con
 /// the weights have.
 template <class T>
 template <class Other>
-Triple<T> Placer<T>::mix(const Binding::Layout::Blend& blend, const Triple<T>& base,
-                         const Other& other) const {
+Triple<T> Placer<T>::mix(const BindingLayout::Blend& blend, const Triple<T>& base, const Other& other) const {
   Triple<T> sum = base;
   for (std::size_t k = blend.begin; k < blend.end; ++k)
     sum = sum + static_cast<T>(layout_.share[k]) * (other(layout_.other_slot[k]) - base);
@@ -111,7 +110,7 @@ template <class PieceOf>
 Triple<T> Placer<T>::one(std::size_t point, const PieceOf& piece_of) const {
   layout_.require_point(point);
   const Triple<T> base = place_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
-  const Binding::Layout::Blend* blend = layout_.blend_of(point);
+  const BindingLayout::Blend* blend = layout_.blend_of(point);
   if (!blend) return base;
   return mix(*blend, base,
              [&](std::size_t slot) { return place_slot(piece_of, layout_.others, numbers_.others, slot); });

@@ -79,8 +79,7 @@ void add_to_controls(const Span& span, const Piece<double>& piece, const Moments
   to.primary[span.reference()] += base;
 }
 
-std::vector<ControlForces> to_controls(const Binding::Layout& layout,
-                                       const std::vector<Piece<double>>& pieces,
+std::vector<ControlForces> to_controls(const BindingLayout& layout, const std::vector<Piece<double>>& pieces,
                                        const std::vector<Moments>& moments) {
   std::vector<ControlForces> result;
   for (const KnotVector& knots : layout.knots) {
@@ -96,7 +95,7 @@ std::vector<ControlForces> to_controls(const Binding::Layout& layout,
 
 std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed, Points forces,
                                               int threads) const {
-  const Layout& layout = *layout_;
+  const BindingLayout& layout = *layout_;
   layout.require_same_knots(posed);
   check(forces, layout.size, threads);
   const auto pieces = pose<double>(layout.spans, posed);
@@ -122,7 +121,7 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed, 
 
 std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
                                               std::span<const std::uint32_t> points, Points forces) const {
-  const Layout& layout = *layout_;
+  const BindingLayout& layout = *layout_;
   layout.require_same_knots(posed);
   check(forces, points.size(), 1);
   const auto pieces = pose<double>(layout.spans, posed);
@@ -133,7 +132,7 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);
-    const Layout::Blend* blend = layout.blend_of(points[i]);
+    const BindingLayout::Blend* blend = layout.blend_of(points[i]);
     const double kept = blend ? layout.kept[points[i]] : 1.0;
     add(layout.nearest, layout.numbers.nearest, layout.slot[points[i]], kept * forces[i]);
     if (!blend) continue;

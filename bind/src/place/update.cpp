@@ -26,8 +26,8 @@ ColumnsView<T> view(const Columns<T>& out, std::size_t size) {
   return {out.x.data(), out.y.data(), out.z.data()};
 }
 
-Placer<double> placer(const Binding& binding, std::span<const CurvePair> posed) {
-  return {binding.layout(), binding.layout().numbers, posed};
+Placer<double> placer(const BindingLayout& layout, std::span<const CurvePair> posed) {
+  return {layout, layout.numbers, posed};
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ Placer<double> placer(const Binding& binding, std::span<const CurvePair> posed) 
 void Binding::update(std::span<const CurvePair> posed, MutablePoints out, int threads) const {
   require("out", out.size(), size());
   require_threads(threads);
-  placer(*this, posed).update(out.data(), threads);
+  placer(*layout_, posed).update(out.data(), threads);
 }
 
 void Binding::update(const CurvePair& posed, MutablePoints out, int threads) const {
@@ -44,11 +44,11 @@ void Binding::update(const CurvePair& posed, MutablePoints out, int threads) con
 
 void Binding::update(std::span<const CurvePair> posed, const Columns<double>& out, int threads) const {
   require_threads(threads);
-  placer(*this, posed).update(view(out, size()), threads);
+  placer(*layout_, posed).update(view(out, size()), threads);
 }
 
 Vec3 Binding::at(std::span<const CurvePair> posed, std::size_t point) const {
-  const Triple<double> p = placer(*this, posed).one(point);
+  const Triple<double> p = placer(*layout_, posed).one(point);
   return {p.x, p.y, p.z};
 }
 
@@ -59,29 +59,29 @@ Vec3 Binding::at(const CurvePair& posed, std::size_t point) const {
 void Binding::at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points,
                  MutablePoints out) const {
   require("out", out.size(), points.size());
-  placer(*this, posed).some(points, out.data());
+  placer(*layout_, posed).some(points, out.data());
 }
 
-struct Bindingf::Numbers : Binding::Layout::Numbers<float> {};
+struct Bindingf::Numbers : BindingLayout::Numbers<float> {};
 
 Bindingf::Bindingf(const Binding& binding)
     : binding_(binding),
-      numbers_(std::make_shared<const Numbers>(Numbers{{Records<float>(binding.layout().numbers.nearest),
-                                                        Records<float>(binding.layout().numbers.others)}})) {}
+      numbers_(std::make_shared<const Numbers>(Numbers{{Records<float>(binding.layout_->numbers.nearest),
+                                                        Records<float>(binding.layout_->numbers.others)}})) {}
 
 void Bindingf::update(std::span<const CurvePair> posed, std::span<Eigen::Vector3f> out, int threads) const {
   require("out", out.size(), size());
   require_threads(threads);
-  Placer<float>(binding_.layout(), *numbers_, posed).update(out.data(), threads);
+  Placer<float>(*binding_.layout_, *numbers_, posed).update(out.data(), threads);
 }
 
 void Bindingf::update(std::span<const CurvePair> posed, const Columns<float>& out, int threads) const {
   require_threads(threads);
-  Placer<float>(binding_.layout(), *numbers_, posed).update(view(out, size()), threads);
+  Placer<float>(*binding_.layout_, *numbers_, posed).update(view(out, size()), threads);
 }
 
 Eigen::Vector3f Bindingf::at(std::span<const CurvePair> posed, std::size_t point) const {
-  const Triple<float> p = Placer<float>(binding_.layout(), *numbers_, posed).one(point);
+  const Triple<float> p = Placer<float>(*binding_.layout_, *numbers_, posed).one(point);
   return {p.x, p.y, p.z};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/curve_pair.h>
 
 #include <cstdint>
@@ -52,7 +53,7 @@ enum class AxisStatus {
   time_limit,  ///< no curves: see AxisOptions::time_limit
   diverged     ///< no curves: the contraction left the finite numbers
 };
-const char* to_string(AxisStatus status);
+TENDRIL_AXIS_API const char* to_string(AxisStatus status);
 
 /// Parents come before their children. The first curve is the longest path through the skeleton.
 struct AxisTree {
@@ -63,6 +64,6 @@ struct AxisTree {
 };
 
 /// The curve-pair through a chain: degree 3, less for fewer than four nodes.
-CurvePair pair_of(const AxisCurve& curve);
+TENDRIL_AXIS_API CurvePair pair_of(const AxisCurve& curve);
 
 }  // namespace tendril::axis

@@ -2,6 +2,7 @@
 
 #include <tendril/axis/axis_options.h>
 #include <tendril/axis/axis_tree.h>
+#include <tendril/base/export.h>
 #include <tendril/bind/polygon_mesh.h>
 
 namespace tendril::axis {
@@ -19,6 +20,6 @@ namespace tendril::axis {
 /// Throws InvalidInput("mesh", counts of all that is wrong, ...) unless the mesh, or the copy that the
 /// options allow to be made, is one closed, manifold, consistently oriented surface without faces of no area.
 /// \param mesh  polygons become fans of triangles; points in no face are left out
-AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options = {});
+TENDRIL_AXIS_API AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options = {});
 
 }  // namespace tendril::axis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/bind_options.h>
 #include <tendril/bind/columns.h>
 #include <tendril/bind/polygon_mesh.h>
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace tendril::bind {
+
+struct BindingLayout;  ///< the flat arrays, private to the module
 
 /// Points bound to curve-pairs: each to its nearest point on the primary curves, as an axial record
 /// (thesis 2.2), or to several places of them with weights. Every record gives the rest shape back, whatever
@@ -29,7 +32,7 @@ namespace tendril::bind {
 /// off the normal plane of their projection last, otherwise as they were given. The same bits for any number
 /// of threads, on any vector unit, and for a point alone. Memory: about 80 bytes a place. Making it costs a
 /// projection a point, an update two polynomials and a frame for each place in use.
-class Binding {
+class TENDRIL_BIND_API Binding {
  public:
   /// Each point to its nearest projection.
   /// \param rest     the curve-pair the points are bound to, in its rest shape
@@ -79,11 +82,9 @@ class Binding {
   std::vector<ControlForces> pull_back(std::span<const CurvePair> posed,
                                        std::span<const std::uint32_t> points, Points forces) const;
 
-  struct Layout;  ///< the flat arrays, private to the module
-  const Layout& layout() const { return *layout_; }
-
  private:
-  std::shared_ptr<const Layout> layout_;
+  friend class Bindingf;
+  std::shared_ptr<const BindingLayout> layout_;
   BindReport report_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/binding.h>
 
 namespace tendril::bind {
@@ -8,7 +9,7 @@ namespace tendril::bind {
 /// binding's, rounded; a point comes back at rest to about 1e-6 of the coordinates' size. Where a frame is
 /// within 1e-2 of degenerate it is computed in double precision. The same bits for any number of threads, on
 /// any vector unit, and for a point alone. Immutable, cheap to copy.
-class Bindingf {
+class TENDRIL_BIND_API Bindingf {
  public:
   explicit Bindingf(const Binding& binding);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/polygon_mesh.h>
 
 #include <string>
@@ -18,14 +19,14 @@ struct PlyOptions {
 
 /// Binary little-endian PLY: x y z [nx ny nz] [red green blue alpha] and lists vertex_indices [red green blue
 /// alpha].
-std::string ply_bytes(const PolygonMesh& mesh, const PlyOptions& options = {});
+TENDRIL_BIND_API std::string ply_bytes(const PolygonMesh& mesh, const PlyOptions& options = {});
 
 /// Text OFF, [C][N]OFF when there are colors or normals; each number in its shortest form that reads back
 /// unchanged.
-std::string off_text(const PolygonMesh& mesh);
+TENDRIL_BIND_API std::string off_text(const PolygonMesh& mesh);
 
 /// Writes ply_bytes(mesh) or off_text(mesh), as the ending .ply or .off says; another ending throws
 /// InvalidInput. The file is written whole or not at all (FileError).
-void write_mesh(const std::string& path, const PolygonMesh& mesh);
+TENDRIL_BIND_API void write_mesh(const std::string& path, const PolygonMesh& mesh);
 
 }  // namespace tendril::bind

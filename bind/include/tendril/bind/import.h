@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/polygon_mesh.h>
 
 #include <string>
@@ -26,7 +27,7 @@ namespace tendril::bind {
 
 /// Reads a file. The format is told by its first bytes, not by its name.
 /// Throws FileError when it cannot be read, InvalidInput when it is neither OFF nor PLY or malformed.
-PolygonMesh read_mesh(const std::string& path, std::vector<std::string>* notes = nullptr);
+TENDRIL_BIND_API PolygonMesh read_mesh(const std::string& path, std::vector<std::string>* notes = nullptr);
 
 /// OFF of Geomview's manual, section "OFF files": text or binary (big-endian), the keyword required, '#'
 /// comments.
@@ -40,7 +41,7 @@ PolygonMesh read_mesh(const std::string& path, std::vector<std::string>* notes =
 ///   grey 0.666.
 /// - In text, what follows a vertex's color or a face's corners ends with the line; the rest is free-form.
 /// `name` stands for the file in errors.
-PolygonMesh parse_off(std::string_view bytes, const std::string& name);
+TENDRIL_BIND_API PolygonMesh parse_off(std::string_view bytes, const std::string& name);
 
 /// PLY 1.0 (G. Turk, "The PLY polygon file format", 1994): ascii, binary_little_endian, binary_big_endian.
 /// - Scalar types char .. double, their sized names int8 .. float64, and int64/uint64. Text is read in double
@@ -52,6 +53,6 @@ PolygonMesh parse_off(std::string_view bytes, const std::string& name);
 ///   0..1, of integer type 0..255.
 /// - In text, elements begin on a line of their own.
 /// - Triangle strips are refused: skipping them would lose the surface.
-PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
+TENDRIL_BIND_API PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 
 }  // namespace tendril::bind

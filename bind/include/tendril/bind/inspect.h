@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/polygon_mesh.h>
 
 #include <array>
@@ -55,6 +56,6 @@ struct MeshReport {
 ///
 /// Deterministic; time O(n log n), memory O(n) in points and corners. Throws InvalidInput when
 /// require_valid(mesh) does.
-MeshReport inspect(const PolygonMesh& mesh);
+TENDRIL_BIND_API MeshReport inspect(const PolygonMesh& mesh);
 
 }  // namespace tendril::bind

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/binding.h>
 
 #include <array>
@@ -51,7 +52,7 @@ struct JudgeReport {
 };
 
 /// Binds all levels once, judges any number of poses.
-class TearJudge {
+class TENDRIL_BIND_API TearJudge {
  public:
   /// Throws InvalidInput as Binding does. Memory: 4^refinements times the mesh and its binding.
   TearJudge(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& bind,
@@ -77,6 +78,6 @@ class TearJudge {
 
 /// Every triangle split in four at the middles of its edges; faces become fans of triangles first. Points
 /// keep their places.
-PolygonMesh split_at_middles(const PolygonMesh& mesh);
+TENDRIL_BIND_API PolygonMesh split_at_middles(const PolygonMesh& mesh);
 
 }  // namespace tendril::bind

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/binding.h>
 #include <tendril/dynamics/follower.h>
 
@@ -8,7 +9,7 @@
 namespace tendril::bind {
 
 /// Keeps points on their moving curve-pairs: every call of follow updates `out` through the binding.
-class MeshFollower : public Follower {
+class TENDRIL_BIND_API MeshFollower : public Follower {
  public:
   /// \param binding  kept by reference
   /// \param pair     index of the binding's first curve-pair among those of the simulation; its others follow

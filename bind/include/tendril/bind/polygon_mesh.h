@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 
 #include <array>
@@ -37,10 +38,10 @@ struct PolygonMesh {
 /// 0, grows by at least 3 per face and ends with the number of corners; corners name points that exist;
 /// points and normals are finite; each attribute is empty or has one entry per point or face. O(points +
 /// corners).
-void require_valid(const PolygonMesh& mesh);
+TENDRIL_BIND_API void require_valid(const PolygonMesh& mesh);
 
 /// Diagonal of the axis-aligned bounding box of the points; 0 for none. The "size" tolerances are relative
 /// to.
-double bounding_diagonal(Points points);
+TENDRIL_BIND_API double bounding_diagonal(Points points);
 
 }  // namespace tendril::bind

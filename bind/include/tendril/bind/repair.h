@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/inspect.h>
 
 namespace tendril::bind {
@@ -17,7 +18,7 @@ struct RepairOptions {
 inline constexpr std::uint32_t kDropped = 0xffffffff;
 
 /// A mended mesh, and what became of every point and face of the one before.
-struct Repaired {
+struct TENDRIL_BIND_API Repaired {
   PolygonMesh mesh;
   std::vector<std::uint32_t> point;  ///< per point before, its id now; of merged points that of the one kept
   std::vector<std::uint32_t> face;   ///< per face before, its id now
@@ -36,6 +37,6 @@ struct Repaired {
 /// says so afterwards.
 ///
 /// Deterministic; time O(n log n), memory O(n). Throws InvalidInput when require_valid(mesh) does.
-Repaired repair(const PolygonMesh& mesh, const RepairOptions& options = {});
+TENDRIL_BIND_API Repaired repair(const PolygonMesh& mesh, const RepairOptions& options = {});
 
 }  // namespace tendril::bind

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 
 #include <cstddef>
@@ -21,13 +22,13 @@ struct Box {
 };
 
 /// The smallest box about at least one point.
-Box box_of(Points points);
-Box join(const Box& a, const Box& b);
+TENDRIL_COLLISION_API Box box_of(Points points);
+TENDRIL_COLLISION_API Box join(const Box& a, const Box& b);
 
 /// Binary, balanced, one item a leaf; split at the median of the items' middles along the axis of the largest
 /// spread. The same items give the same tree. 2 n - 1 boxes, stored depth first: the left child follows its
 /// parent, the right one follows the left one's subtree.
-class BoxTree {
+class TENDRIL_COLLISION_API BoxTree {
  public:
   BoxTree() = default;
   /// O(n log n). Throws InvalidInput for a box that is not finite or has low > high.

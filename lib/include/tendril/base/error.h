@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -9,13 +11,13 @@
 namespace tendril {
 
 /// Base of everything the library throws on purpose.
-class Error : public std::runtime_error {
+class TENDRIL_CORE_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// The caller's data cannot be used.
-class InvalidInput : public Error {
+class TENDRIL_CORE_API InvalidInput : public Error {
  public:
   /// \param place     what the fault is in: "mesh.off:12", "scene.json#/curves/0/degree", "BSpline: knots[4]"
   /// \param reason    what is wrong, with the value found
@@ -31,7 +33,7 @@ class InvalidInput : public Error {
 };
 
 /// A file cannot be opened, read or written; what() holds its name and the system's reason.
-class FileError : public Error {
+class TENDRIL_CORE_API FileError : public Error {
  public:
   FileError(const std::string& path, const std::string& reason);
 

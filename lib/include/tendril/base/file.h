@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 #include <string>
 #include <string_view>
 
@@ -10,7 +12,7 @@ namespace tendril {
 ///
 /// Throws FileError with the system's reason when the file cannot be opened or read, and when `path` is a
 /// folder, a pipe or a device: those have no size to bound the read by.
-std::string read_file(const std::string& path);
+TENDRIL_CORE_API std::string read_file(const std::string& path);
 
 /// Makes `path` hold exactly `bytes`. The bytes go to a new file in the same folder, which is flushed to the
 /// disk and then renamed over `path`; so at any moment, also after a crash, `path` is either the old file or
@@ -18,6 +20,6 @@ std::string read_file(const std::string& path);
 ///
 /// Throws FileError on any failure; then the old file is as it was and nothing new is left behind. Something
 /// that is not a regular file (a folder, a device) is refused rather than replaced.
-void write_file_whole(const std::string& path, std::string_view bytes);
+TENDRIL_CORE_API void write_file_whole(const std::string& path, std::string_view bytes);
 
 }  // namespace tendril

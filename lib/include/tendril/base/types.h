@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
@@ -23,6 +25,6 @@ using MutablePoints = std::span<Vec3>;
 inline bool is_finite(const Vec3& v) {
   return v.allFinite();
 }
-bool all_finite(Points points);
+TENDRIL_CORE_API bool all_finite(Points points);
 
 }  // namespace tendril

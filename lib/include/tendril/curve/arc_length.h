@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/bspline.h>
 
 #include <vector>
@@ -12,7 +13,7 @@ namespace tendril {
 /// of the total, so that s(t) is within 1e-12 of the total (absolute, same unit as the control points) also
 /// next to points of zero speed, where |c'| has a kink. Built in O(cells), 2 per span on smooth curves;
 /// independent of the curve afterwards.
-class ArcLength {
+class TENDRIL_CORE_API ArcLength {
  public:
   explicit ArcLength(const BSpline& curve);
 

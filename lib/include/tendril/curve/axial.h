@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/curve_pair.h>
 
 namespace tendril {
@@ -17,9 +18,9 @@ struct AxialPoint {
 
 /// The record of `point` at the parameter t (clamped to the domain), by dot products with the frame at t.
 /// Exact inverse of from_axial on the same curve-pair up to rounding, whatever the frame's status.
-AxialPoint to_axial(const CurvePair& pair, double t, const Vec3& point);
+TENDRIL_CORE_API AxialPoint to_axial(const CurvePair& pair, double t, const Vec3& point);
 
 /// The point of the record on a curve-pair, usually one that has moved since.
-Vec3 from_axial(const CurvePair& pair, const AxialPoint& record);
+TENDRIL_CORE_API Vec3 from_axial(const CurvePair& pair, const AxialPoint& record);
 
 }  // namespace tendril

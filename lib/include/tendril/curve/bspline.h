@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 #include <tendril/curve/knots.h>
 
@@ -9,7 +10,7 @@ namespace tendril {
 
 /// Linear combination of control points with a basis row: the order-th derivative of the curve the points
 /// belong to. Shared by all curves on the same knots, so that a curve-pair evaluates its basis once.
-Vec3 combine(const Basis& basis, int degree, Points control_points, int order = 0);
+TENDRIL_CORE_API Vec3 combine(const Basis& basis, int degree, Points control_points, int order = 0);
 
 /// One polynomial piece in Bernstein form: c(t) = sum_j B_{j,p}((t - begin) / (end - begin)) points[j].
 struct BezierPiece {
@@ -19,7 +20,7 @@ struct BezierPiece {
 
 /// Clamped non-rational B-spline curve, c(t) = sum_i N_{i,p}(t) u_i (thesis 2.5), t in [knots.start,
 /// knots.end]. Parameters outside are clamped.
-class BSpline {
+class TENDRIL_CORE_API BSpline {
  public:
   /// \param control_points  as many as the knots ask for, all finite; else InvalidInput
   BSpline(KnotVector knots, std::vector<Vec3> control_points);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/bspline.h>
 
 #include <memory>
@@ -59,7 +60,7 @@ struct LocalMinimum : Projection {
 ///
 /// Cost: O(log spans) for a point near the curve compared with its other branches, no allocation. Immutable
 /// after construction and cheap to copy; may be shared between threads.
-class CurveProjector {
+class TENDRIL_CORE_API CurveProjector {
  public:
   explicit CurveProjector(const BSpline& curve);
 

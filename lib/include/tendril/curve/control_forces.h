@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/fit.h>
 
 #include <vector>
@@ -23,6 +24,6 @@ struct MassLoads {
 /// interpolation, force = N^-T (primary + orientation) and torque_i = arm_i x (N^-T orientation)_i. The
 /// resultant force and torque stay the same. O(n).
 /// \param arm  as many as the curves have control points, else InvalidInput
-MassLoads loads_on_masses(const Interpolator& fit, const ControlForces& forces, Points arm);
+TENDRIL_CORE_API MassLoads loads_on_masses(const Interpolator& fit, const ControlForces& forces, Points arm);
 
 }  // namespace tendril

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/bspline.h>
 #include <tendril/curve/frames.h>
 
@@ -18,7 +19,7 @@ struct CurveFrame {
 
 /// An axial curve-pair (thesis 2.2): the primary curve c(t) and the orientation curve c_D(t) on the same
 /// knots. Only the direction of c_D(t) - c(t) across the tangent matters.
-class CurvePair {
+class TENDRIL_CORE_API CurvePair {
  public:
   /// Throws InvalidInput on the wrong number of control points or one that is not finite.
   CurvePair(const KnotVector& knots, std::vector<Vec3> primary, std::vector<Vec3> orientation);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/bspline.h>
 
 #include <vector>
@@ -18,7 +19,7 @@ enum class Parametrisation {
 /// and are frozen: the matrix N_{i,p}(r_k) is factored once, every later set of points is one banded solve,
 /// and what is bound at a parameter does not slide. Knots by averaging p consecutive parameters (thesis 3.10
 /// with its lost 1/p), except for universal parameters, whose knots are uniform.
-class Interpolator {
+class TENDRIL_CORE_API Interpolator {
  public:
   /// \param rest  more than `degree` finite points, neighbours distinct for the two chord methods; else
   /// InvalidInput

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 
 #include <vector>
@@ -33,15 +34,15 @@ struct FrameChoice {
   FrameStatus status = FrameStatus::ok;
   double sine = 1.0;  ///< of the angle between offset and tangent: how far from degenerate
 };
-FrameChoice frame_towards(const Vec3& z, const Vec3& offset);
+TENDRIL_CORE_API FrameChoice frame_towards(const Vec3& z, const Vec3& offset);
 
 /// The smallest rotation that takes the unit vector `from` to the unit vector `to`, applied to v:
 /// v - (a + b) ((a + b).v) / (1 + a.b) + 2 b (a.v). At to = -from, where none is smallest, a half turn about
 /// the axis perpendicular to `from` and to the world axis least aligned with it.
-Vec3 rotate_smallest(const Vec3& from, const Vec3& to, const Vec3& v);
+TENDRIL_CORE_API Vec3 rotate_smallest(const Vec3& from, const Vec3& to, const Vec3& v);
 
 /// v turned by `angle` about the unit axis (right-hand rule).
-Vec3 rotate_about(const Vec3& axis, double angle, const Vec3& v);
+TENDRIL_CORE_API Vec3 rotate_about(const Vec3& axis, double angle, const Vec3& v);
 
 /// Unit polygon tangents of a chain (thesis 2.7, normalised): the bisector of the two unit edges inside, the
 /// edge at the two ends. `status` has an entry per node.
@@ -49,7 +50,7 @@ struct PolygonTangents {
   std::vector<Vec3> t;
   std::vector<FrameStatus> status;
 };
-PolygonTangents polygon_tangents(Points p);
+TENDRIL_CORE_API PolygonTangents polygon_tangents(Points p);
 
 /// Node frames of a chain of masses p with the orientation masses q. Sizes equal, at least 2; else
 /// InvalidInput. The status of a node is that of its tangent, or else that of its offset.
@@ -57,6 +58,6 @@ struct NodeFrames {
   std::vector<Frame> frame;
   std::vector<FrameStatus> status;
 };
-NodeFrames node_frames(Points p, Points q);
+TENDRIL_CORE_API NodeFrames node_frames(Points p, Points q);
 
 }  // namespace tendril

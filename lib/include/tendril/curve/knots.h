@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 #include <array>
 #include <span>
 #include <vector>
@@ -19,7 +21,7 @@ struct Basis {
 
 /// A clamped knot vector: k_0 = ... = k_p < ... < k_{m-p} = ... = k_m with m = n + p + 1 for n + 1 control
 /// points. Interior knots may repeat up to p times (the curve stays continuous).
-class KnotVector {
+class TENDRIL_CORE_API KnotVector {
  public:
   /// \param degree  1 to 5
   /// \param knots   finite, non-decreasing, clamped, at least 2 (degree + 1) of them

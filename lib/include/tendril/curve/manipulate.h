@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 #include <tendril/curve/frames.h>
 
@@ -19,10 +20,10 @@ struct PolygonPair {
 /// smallest rotation (thesis 2.8, 2.9 with the rotation 2.9 leaves open), so nothing twists. O(1). \return
 /// ok, or the first degenerate tangent among the three (its offset is then only translated) Throws
 /// InvalidInput when i is out of range or `to` is not finite; the pair is then unchanged.
-FrameStatus move_point(PolygonPair& pair, std::size_t i, const Vec3& to);
+TENDRIL_CORE_API FrameStatus move_point(PolygonPair& pair, std::size_t i, const Vec3& to);
 
 /// Turns the offset at i by `angle` [rad] about the polygon tangent there (right-hand rule).
 /// \return  ok, or why the tangent at i is degenerate (the rule of frames.h then names the axis)
-FrameStatus twist_point(PolygonPair& pair, std::size_t i, double angle);
+TENDRIL_CORE_API FrameStatus twist_point(PolygonPair& pair, std::size_t i, double angle);
 
 }  // namespace tendril

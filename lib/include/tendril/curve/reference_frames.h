@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/bspline.h>
 #include <tendril/curve/frames.h>
 
@@ -21,12 +22,12 @@ struct FrenetFrame {
   double curvature = 0.0;  ///< |c' x c''| / |c'|^3, one per length; 0 unless ok
   double torsion = 0.0;    ///< (c' x c'') . c''' / |c' x c''|^2, signed; 0 unless ok
 };
-FrenetFrame frenet_frame(const BSpline& curve, double t);
+TENDRIL_CORE_API FrenetFrame frenet_frame(const BSpline& curve, double t);
 
 /// Frame with x = unit(d cross z): y is the part of d across the tangent. Degenerate (offset_along_tangent)
 /// where the sine of the angle between d and the tangent is below 1e-12.
 /// \param d  finite and not zero, of any length; else InvalidInput
-FrameChoice directional_frame(const BSpline& curve, double t, const Vec3& d);
+TENDRIL_CORE_API FrameChoice directional_frame(const BSpline& curve, double t, const Vec3& d);
 
 /// Rotation-minimising frames by double reflection (Wang, Juettler, Zheng and Liu 2008): the frame at each
 /// parameter is that of the one before, reflected in the bisecting plane of the two points and then in that
@@ -36,7 +37,7 @@ FrameChoice directional_frame(const BSpline& curve, double t, const Vec3& d);
 /// rotation between the tangents is used); fold_back where the second reflection has no plane.
 /// \param parameters  at least one, not decreasing, no NaN; else InvalidInput
 /// \param y           direction that the first frame's y takes across the tangent, as in directional_frame
-NodeFrames rotation_minimising_frames(const BSpline& curve, std::span<const double> parameters,
-                                      const Vec3& y);
+TENDRIL_CORE_API NodeFrames rotation_minimising_frames(const BSpline& curve,
+                                                       std::span<const double> parameters, const Vec3& y);
 
 }  // namespace tendril

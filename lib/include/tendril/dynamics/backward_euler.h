@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/stepper.h>
 
 namespace tendril {
@@ -11,7 +12,7 @@ namespace tendril {
 /// evaluations and 2/3 (3n + m)^3 operations whenever the kept one converges slowly, 2 (3n + m)^2 operations
 /// an iteration; any force and any tree, but not for many nodes. Outcome not_converged when no matrix renewed
 /// on the way helps: then a shorter step will.
-class BackwardEuler : public Stepper {
+class TENDRIL_CORE_API BackwardEuler : public Stepper {
  public:
   explicit BackwardEuler(const System& system);
   ~BackwardEuler() override;

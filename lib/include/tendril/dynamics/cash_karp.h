@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/stepper.h>
 
 #include <array>
@@ -24,7 +25,7 @@ struct CashKarpTableau {
 };
 
 /// One step of the pair.
-class CashKarp : public EmbeddedStepper {
+class TENDRIL_CORE_API CashKarp : public EmbeddedStepper {
  public:
   /// \param system  kept by reference
   explicit CashKarp(const System& system);

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/stepper.h>
 
 namespace tendril {
 
 /// y + h f(t, y). Order 1, one evaluation. Amplifies every undamped oscillation, by sqrt(1 + (h w)^2) a step:
 /// a comparator, not a method to use.
-class ExplicitEuler : public Stepper {
+class TENDRIL_CORE_API ExplicitEuler : public Stepper {
  public:
   explicit ExplicitEuler(const System& system);
   ~ExplicitEuler() override;
@@ -21,7 +22,7 @@ class ExplicitEuler : public Stepper {
 
 /// The classic Runge-Kutta method (thesis 3.28 with k4 at y + h k3). Order 4, four evaluations, stable on
 /// undamped oscillations to h w = 2.82 and dissipating there, by (h w)^6 / 144 a step.
-class ClassicRungeKutta : public Stepper {
+class TENDRIL_CORE_API ClassicRungeKutta : public Stepper {
  public:
   explicit ClassicRungeKutta(const System& system);
   ~ClassicRungeKutta() override;
@@ -47,7 +48,7 @@ class ClassicRungeKutta : public Stepper {
 /// order 2, two evaluations, stable for h w < 2 and h (alpha + beta w^2) < 2, but neither symplectic nor
 /// exactly reversible. With the gyroscopic force of spinning nodes the energy wanders: by 4e-4 in 200 s of
 /// free flight at h w = 0.26, 1e-4 at 0.13.
-class VelocityVerlet : public Stepper {
+class TENDRIL_CORE_API VelocityVerlet : public Stepper {
  public:
   explicit VelocityVerlet(const System& system);
   ~VelocityVerlet() override;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/curve_pair.h>
 
 #include <span>
@@ -8,7 +9,7 @@ namespace tendril {
 
 /// A consumer of steps: what turns the moving curve-pairs into a mesh, a file, a collision watch. Called once
 /// per accepted step or once per output time, never on a step that is later thrown away.
-class Follower {
+class TENDRIL_CORE_API Follower {
  public:
   virtual ~Follower() = default;
 

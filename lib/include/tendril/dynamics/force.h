@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 
 #include <optional>
@@ -34,7 +35,7 @@ struct Loads {
 
 /// Where a force adds its derivatives: of the force on node i by the position and the velocity of node j of
 /// the same rod, at most two nodes away.
-class LoadDerivatives {
+class TENDRIL_CORE_API LoadDerivatives {
  public:
   virtual ~LoadDerivatives() = default;
   virtual void add_by_position(std::size_t i, std::size_t j, const Mat3& k) = 0;
@@ -44,7 +45,7 @@ class LoadDerivatives {
 /// An external force. Extension point: derive, and hand it to the system. It must be pure in the state it is
 /// shown (an adaptive step evaluates six stages and may throw them away), and safe to call from several
 /// threads.
-class Force {
+class TENDRIL_CORE_API Force {
  public:
   virtual ~Force() = default;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/force.h>
 #include <tendril/dynamics/signal.h>
 
@@ -8,7 +9,7 @@
 namespace tendril {
 
 /// m g on every mass (thesis 3.17); energy -sum m g.p.
-class Gravity final : public Force {
+class TENDRIL_CORE_API Gravity final : public Force {
  public:
   explicit Gravity(const Vec3& acceleration);
   void add(const StateView& state, const Loads& loads) const override;
@@ -40,7 +41,7 @@ struct WindOptions {
 
 /// Drag of the air on every edge (thesis 3.18, as a vector): with w = v_edge - u, split across and along the
 /// edge, -1/2 rho width |e| (C_n |w_n| w_n + C_t |w_t| w_t), half to each end.
-class Wind : public Force {
+class TENDRIL_CORE_API Wind : public Force {
  public:
   explicit Wind(const WindOptions& options);
   void add(const StateView& state, const Loads& loads) const override;
@@ -62,7 +63,7 @@ class Wind : public Force {
 
 /// direction times signal(t) on one node of one rod; a force [force] or a torque [torque] fixed in the world
 /// frame.
-class PointLoad : public Force {
+class TENDRIL_CORE_API PointLoad : public Force {
  public:
   enum class Kind { force, torque };
   PointLoad(Kind kind, std::size_t rod, std::size_t node, const Vec3& direction, Signal signal);
@@ -85,7 +86,7 @@ class PointLoad : public Force {
 };
 
 /// A spring of rest length 0 that pulls a node towards a point: -K (p - target), energy 1/2 K |p - target|^2.
-class PullTowards : public Force {
+class TENDRIL_CORE_API PullTowards : public Force {
  public:
   PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
   bool depends_on_time() const override { return false; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/stepper.h>
 
 #include <string_view>
@@ -34,17 +35,17 @@ struct MethodInfo {
 
 /// The table, a row per method in the order of the enumeration. A new method of the library is a stepper, an
 /// enumerator above and its row; whoever offers methods to choose from goes through the rows.
-std::span<const MethodInfo> methods();
-const MethodInfo& info(Method method);
+TENDRIL_CORE_API std::span<const MethodInfo> methods();
+TENDRIL_CORE_API const MethodInfo& info(Method method);
 /// The row of that name; nullptr where none has it.
-const MethodInfo* find_method(std::string_view name);
+TENDRIL_CORE_API const MethodInfo* find_method(std::string_view name);
 
-const char* to_string(Method method);
+TENDRIL_CORE_API const char* to_string(Method method);
 
 /// True for the methods that estimate their error and choose their steps by it.
-bool chooses_steps(Method method);
+TENDRIL_CORE_API bool chooses_steps(Method method);
 
 /// A stepper for the method. \param system  kept by reference
-std::unique_ptr<Stepper> make_stepper(Method method, const System& system);
+TENDRIL_CORE_API std::unique_ptr<Stepper> make_stepper(Method method, const System& system);
 
 }  // namespace tendril

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/base/types.h>
 #include <tendril/dynamics/section.h>
 
@@ -40,8 +41,8 @@ struct Material {
 /// half-length sum at the ends is half an edge): K_s = E A / L, K_l = 2 E I_1 / L_v, K_m = 2 E I_2 / L_v, K_w
 /// = G J / L, mass rho A times the half-length sum, spin inertia rho I_p times it. The third spring is 0. A
 /// clamped cantilever of it converges to the elastica at second order in the edge length.
-Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q, const Material& material,
-             const Section& section);
+TENDRIL_CORE_API Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
+                              const Material& material, const Section& section);
 
 /// The thesis's own constants, the same at every node and edge (K^t of 3.11; K_theta, K_lambda, K_beta
 /// of 3.12; K_omega of 3.15).
@@ -53,10 +54,12 @@ struct SpringConstants {
   double inertia;  ///< of one q_i about the tangent: m_q r^2
   double width = 0.0;
 };
-Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q, const SpringConstants& springs);
+TENDRIL_CORE_API Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
+                              const SpringConstants& springs);
 
 /// Orientation masses for a chain: p_i + offset * (component of `side` across the tangent there).
 /// InvalidInput where `side` lies along a tangent, naming the node.
-std::vector<Vec3> orientation_towards(const std::vector<Vec3>& p, const Vec3& side, double offset);
+TENDRIL_CORE_API std::vector<Vec3> orientation_towards(const std::vector<Vec3>& p, const Vec3& side,
+                                                       double offset);
 
 }  // namespace tendril

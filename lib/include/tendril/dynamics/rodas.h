@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/stepper.h>
 
 namespace tendril {
@@ -17,7 +18,7 @@ namespace tendril {
 ///
 /// It damps oscillations it does not resolve, so energy is lost to it where Cash-Karp would need its guard.
 /// Time and memory of a step: O(nodes), on trees too.
-class Rodas : public EmbeddedStepper {
+class TENDRIL_CORE_API Rodas : public EmbeddedStepper {
  public:
   /// \param system  kept by reference
   explicit Rodas(const System& system);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 namespace tendril {
 
 /// A cross-section, by its integrals about the centroid. Axis 1 lies along the node frame's l (x), axis 2
@@ -14,12 +16,12 @@ struct Section {
 };
 
 /// Solid circle: I = pi r^4 / 4, J = pi r^4 / 2. All sizes positive and finite, else InvalidInput.
-Section circular_section(double radius);
+TENDRIL_CORE_API Section circular_section(double radius);
 
 /// Solid ellipse with semi-axes a along l and b along m: J = pi a^3 b^3 / (a^2 + b^2).
-Section elliptic_section(double a, double b);
+TENDRIL_CORE_API Section elliptic_section(double a, double b);
 
 /// Solid rectangle, full sizes a along l and b along m; J by Saint-Venant's series, to 1e-12 relative.
-Section rectangular_section(double a, double b);
+TENDRIL_CORE_API Section rectangular_section(double a, double b);
 
 }  // namespace tendril

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/base/export.h>
+
 #include <utility>
 #include <vector>
 
@@ -7,7 +9,7 @@ namespace tendril {
 
 /// A scalar function of time, by which loads vary: constant, sinusoidal or tabulated. Pure: the same time
 /// gives the same value, so that a rejected step can be repeated.
-class Signal {
+class TENDRIL_CORE_API Signal {
  public:
   /// f(t) = value
   static Signal constant(double value);

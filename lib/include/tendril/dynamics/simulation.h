@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/fit.h>
 #include <tendril/dynamics/follower.h>
 #include <tendril/dynamics/method.h>
@@ -45,7 +46,7 @@ enum class Stop {
                    ///< solution, at every step size (or the fixed one)
   energy_lost,     ///< the energy balance is off by more than the energy limit
 };
-const char* to_string(Stop stop);
+TENDRIL_CORE_API const char* to_string(Stop stop);
 
 /// A change of method during an automatic run.
 struct Switch {
@@ -74,7 +75,7 @@ struct Report {
 /// 7200), so the step is capped by an estimate of the largest frequency. Or, when the options say so, by a
 /// method of fixed step under the same watch on energy and work; velocity Verlet and Runge-Kutta 4 refuse
 /// steps beyond their stability limits. Same scene, same bits.
-class Simulation {
+class TENDRIL_CORE_API Simulation {
  public:
   enum class When { accepted_step, output };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/system.h>
 
 #include <functional>
@@ -39,7 +40,7 @@ enum class Balance {
   not_evaluable,  ///< zero-length edge, fold-back or a number that is not finite where the search leads
   cancelled,
 };
-const char* to_string(Balance balance);
+TENDRIL_CORE_API const char* to_string(Balance balance);
 
 /// Stability of an equilibrium by the eigenvalues of its tangent K x = mu D x, D the share of the length l of
 /// each node (over l^2 for positions, plain for angles), so that mu is an energy: B / l times 12.36 for the
@@ -53,7 +54,7 @@ struct Stability {
   double smallest = 0.0;   ///< the smallest eigenvalue [energy]
   double threshold = 0.0;  ///< [energy]
 };
-const char* to_string(Stability::Kind kind);
+TENDRIL_CORE_API const char* to_string(Stability::Kind kind);
 
 struct Equilibrium {
   State state;  ///< at rest, its frames renewed, twists unwrapped
@@ -84,9 +85,10 @@ struct Equilibrium {
 ///
 /// \param start  anything near the first equilibrium, as rest_state(time); velocities are put to 0
 /// Throws InvalidInput for options out of range.
-Equilibrium find_equilibrium(const System& system, State start, const StaticsOptions& options = {});
+TENDRIL_CORE_API Equilibrium find_equilibrium(const System& system, State start,
+                                              const StaticsOptions& options = {});
 
 /// Stability of a state as it stands, an equilibrium or not. All loads at `load` of themselves.
-Stability stability_of(const System& system, const State& state, double load = 1.0);
+TENDRIL_CORE_API Stability stability_of(const System& system, const State& state, double load = 1.0);
 
 }  // namespace tendril

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/system.h>
 
 #include <memory>
@@ -8,7 +9,7 @@ namespace tendril {
 
 /// Something that moves a state by one step of a size it is told. Extension point: derive, advance by any
 /// rule over System::derivative, end with System::rebase.
-class Stepper {
+class TENDRIL_CORE_API Stepper {
  public:
   virtual ~Stepper() = default;
 
@@ -24,7 +25,7 @@ class Stepper {
 };
 
 /// A stepper that estimates its own error, so that a run can choose its steps.
-class EmbeddedStepper : public Stepper {
+class TENDRIL_CORE_API EmbeddedStepper : public Stepper {
  public:
   /// From `state` over h: the solution into `y`, and an estimate of its error into `error`, laid out like y.
   /// The state is not changed; what was evaluated there is kept for further tries from the same state. On

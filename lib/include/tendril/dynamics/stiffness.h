@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/dynamics/system.h>
 
 #include <Eigen/SparseCore>
@@ -11,7 +12,8 @@ namespace tendril {
 /// held coordinates are not removed; those of a child's root are empty, what they would hold stands with the
 /// node it rides on. Through a one-way joint the parent feels nothing: then it is the derivative of minus the
 /// elastic forces, and not symmetric. A node couples with its third neighbour; O(n) time and entries.
-Evaluation elastic_stiffness(const System& system, const State& state, Eigen::SparseMatrix<double>& stiffness,
-                             System::Workspace& work);
+TENDRIL_CORE_API Evaluation elastic_stiffness(const System& system, const State& state,
+                                              Eigen::SparseMatrix<double>& stiffness,
+                                              System::Workspace& work);
 
 }  // namespace tendril

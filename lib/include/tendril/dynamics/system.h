@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/frames.h>
 #include <tendril/dynamics/scene.h>
 #include <tendril/dynamics/state.h>
@@ -15,7 +16,7 @@ namespace tendril {
 /// loads. Equations of motion: shared-frame rods with the elastic energy of rod.h, its exact gradient, the
 /// connection term of the carried director and the gyroscopic force of the spin. Const and pure: safe to call
 /// from several threads, each with its own Workspace.
-class System {
+class TENDRIL_CORE_API System {
  public:
   /// Throws InvalidInput naming rod, node and field ("rods[0].mass[3]").
   /// \param from  anchors that let go at this time or before hold nothing; the layout of the state is that of
@@ -26,7 +27,7 @@ class System {
   System& operator=(System&&) noexcept;
 
   class Workspace;  ///< scratch arrays of one evaluation
-  struct Release {
+  struct TENDRIL_CORE_API Release {
     void operator()(Workspace* work) const;
   };
   using WorkspacePtr = std::unique_ptr<Workspace, Release>;
