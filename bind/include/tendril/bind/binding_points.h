@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/bind/binding.h>
 #include <tendril/curve/bound_points.h>
 
@@ -14,7 +15,7 @@ namespace tendril::bind {
 /// have |a| + |b s| <= 2 and the absolute sum of a function's coefficients grows by at most 4 a degree: 2^10
 /// at degree 5. Some 2^5 roundings of 2^-53 follow, so curve, velocity by s and offset are within 2^-38 of
 /// the control points' size; normalising divides that by the lengths of velocity and offset cross velocity.
-class BindingPoints : public BoundPoints {
+class TENDRIL_BIND_API BindingPoints : public BoundPoints {
  public:
   explicit BindingPoints(Binding binding) : binding_(std::move(binding)) {}
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/collision/box_queries.h>
 #include <tendril/collision/placed_cells.h>
 
@@ -16,7 +17,7 @@ namespace tendril::collision {
 ///
 /// What a query finds does not depend on what was asked before. Queries change what is kept: one thread at a
 /// time. Memory: about 70 bytes a triangle.
-class AxialHierarchy {
+class TENDRIL_COLLISION_API AxialHierarchy {
  public:
   /// \param triangles  of indices into the points, below 2^31 of them; degenerate ones are allowed. Else
   /// InvalidInput

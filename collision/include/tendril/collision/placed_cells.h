@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/collision/box_tree.h>
 #include <tendril/collision/hierarchy_options.h>
 #include <tendril/curve/bound_points.h>
@@ -17,7 +18,7 @@ struct PlacedTriangle {
 
 /// Made, posed and asked as AxialHierarchy is; a node's children may be looked at once it is no cell, or
 /// opened.
-class PlacedCells {
+class TENDRIL_COLLISION_API PlacedCells {
  public:
   static constexpr std::size_t kLeaf = 8, kCell = 8;  ///< triangles a leaf, leaves a cell
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/curve/axial.h>
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct BoundPlace {
 
 /// Points that follow curve-pairs, in groups that are placed each alone: what a hierarchy needs of a bound
 /// mesh that it deforms where it is touched.
-class PointGroups {
+class TENDRIL_CORE_API PointGroups {
  public:
   virtual ~PointGroups() = default;
 
@@ -42,7 +43,7 @@ class PointGroups {
 /// these control points alone wherever |dc/ds| and n' are at least 1/64 of the largest |U_i - U_j| and
 /// |V_i - U_i|. Anywhere, |p - c| is at most |u| + |v| + |w| up to 2^-36 of it: whatever became of the frame,
 /// its axes have length 1. A record with w below 1e-15 of the size may be taken to have w = 0.
-class BoundPoints {
+class TENDRIL_CORE_API BoundPoints {
  public:
   virtual ~BoundPoints() = default;
 
