@@ -13,18 +13,20 @@ struct AxisOptions {
   /// Work on the part with the largest area alone. Otherwise a mesh of several parts is refused.
   bool largest_part = false;
 
-  /// A twig of the skeleton is cut off when it reaches less far from where it branches off than this many
-  /// times the distance to the surface there. At least 0; 0 keeps all.
+  /// An end branch of the skeleton is pruned when its tip is less far from where it branches off than this
+  /// many times the distance to the surface there. At least 0; 0 keeps all.
   double prune = 2.0;
-  /// Between the nodes of the curves, about; by default a fortieth of the longest curve. Above 0.
+  /// Distance between the nodes of the curves, approximately; by default a fortieth of the longest curve.
+  /// Above 0.
   std::optional<double> spacing;
-  /// How far a fitted curve may stray from the skeleton, in distances to the surface. Above 0, at most 1.
+  /// Largest deviation of a fitted curve from the skeleton, relative to the distance to the surface there.
+  /// Above 0, at most 1.
   double tolerance = 0.15;
 
   /// Coarser meshes are split at the middles of their edges first: the contraction of a coarse one loses
   /// limbs.
   std::size_t least_points = 4000;
-  /// Seconds for the contraction of the surface, which may take for ever. Above 0.
+  /// Seconds for the contraction of the surface, which need not converge. Above 0.
   double time_limit = 60.0;
 };
 

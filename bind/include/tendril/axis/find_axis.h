@@ -8,18 +8,20 @@
 namespace tendril::axis {
 
 /// A tree of curve-pairs along the middle of a closed surface (neck and tail, legs), found by CGAL's mean
-/// curvature skeleton (Tagliasacchi, Alhashim, Olson and Zhang 2012) of Surface_mesh_skeletonization. That
-/// package and others here are under the GPL: so is what links this component.
+/// curvature skeleton [Tagliasacchi et al. 2012] of Surface_mesh_skeletonization. That package and others
+/// here are under the GPL: so is what links this component.
 ///
-/// The skeleton's twigs are pruned, its loops (handles of the surface) cut open where the ways round them
-/// meet, its pieces strung to paths from the longest on, and each path fitted by a cubic B-spline of as few
-/// control points as keep it within `tolerance` of the skeleton.
+/// The skeleton's spurious end branches are pruned, each of its loops (handles of the surface) is cut open
+/// where the two shortest paths round it from the widest junction meet, its branches are joined to paths from
+/// the longest on, and each path is fitted by a cubic B-spline of as few control points as keep it within
+/// `tolerance` of the skeleton.
 ///
 /// Deterministic: the same mesh gives the same bits, in every run. Seconds for 10^5 points, in one thread.
 ///
 /// Throws InvalidInput("mesh", counts of all that is wrong, ...) unless the mesh, or the copy that the
 /// options allow to be made, is one closed, manifold, consistently oriented surface without faces of no area.
-/// \param mesh  polygons become fans of triangles; points in no face are left out
+/// \param mesh     polygons become fans of triangles; points in no face are left out
+/// \param options  out of range: InvalidInput
 TENDRIL_AXIS_API AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options = {});
 
 }  // namespace tendril::axis

@@ -8,31 +8,36 @@
 /// What a Binding is asked for, and what it says about itself.
 namespace tendril::bind {
 
-/// What a point is bound to. Nearest is meant by distance; of several curve-pairs, that to one which the
-/// faces at a point look towards, as a body's do towards the arm beside it, counts for up to ten times as
-/// much.
+/// What a point is bound to. The nearest projection is that of least distance. With several curve-pairs, the
+/// distance to a curve that the surface at the point faces towards, instead of away from, is multiplied by up
+/// to ten: a body's skin beside an arm is nearer to the arm's axis but faces it, and stays bound to its own.
 enum class BindMode {
-  /// Its nearest projection: where that jumps from one place of the axis to another, the mesh tears.
+  /// The nearest projection alone. Across the cut locus of the axes, where it jumps from one part of the axes
+  /// to another, the mesh tears.
   nearest,
-  /// The same, but all places of the axis around it where its nearest projection is about to jump.
+  /// Beside the cut locus, a weighted mean over the part of the axes around the point; elsewhere as
+  /// `nearest`.
   continuous
 };
 
+/// How points are bound.
 struct BindOptions {
-  BindMode mode = BindMode::nearest;
-  /// BindMode::continuous: width of the zone beside a jump of the nearest projection, in units of the
-  /// distance to the axis there, or of what the distance about is less half the way, where the mesh runs into
-  /// its own axis. Above 0, at most 1. Wider is gentler, and blends more of the mesh.
+  BindMode mode = BindMode::nearest;  ///< what a point is bound to
+  /// BindMode::continuous: width of the blended zone on either side of the cut locus, relative to a local
+  /// scale r: the smallest function on the mesh that is at least the distance d to the axis and falls along
+  /// the mesh by at most half the length of the way. r is d but near where the mesh meets its own axis, where
+  /// d vanishes and r does not. Above 0, at most 1. A wider zone stretches the mesh less and blends more of
+  /// it.
   double band = 0.25;
   /// 1 to 256; the same bits for any number.
   int threads = 1;
 };
 
-/// A place of an axis that a point is bound to, and its part in the point.
+/// One point of the axes that a point of the mesh is bound to, with its weight.
 struct Share {
-  std::uint32_t pair;
-  double weight;
-  AxialPoint record;
+  std::uint32_t pair;  ///< index of the curve-pair
+  double weight;       ///< above 0; those of one point sum to 1
+  AxialPoint record;   ///< the point's coordinates there
 };
 
 /// What binding found out about its points. Lists are ascending.
@@ -45,16 +50,18 @@ struct BindReport {
   std::size_t beyond_ends = 0;
   /// Points whose frame has a status other than ok.
   std::vector<std::uint32_t> degenerate;
-  /// Points with lambda <= 0: the axis bends round them, the map of their nearest projection folds there.
+  /// Points with Projection::lambda <= 0, at or beyond the centre of curvature of their nearest point: the
+  /// nearest projection is no smooth function of the point there.
   std::vector<std::uint32_t> past_focus;
-  /// Near where the nearest projection jumps or splits: bound to several places. None in BindMode::nearest.
+  /// Points beside the cut locus, with more than one Share. None in BindMode::nearest.
   std::vector<std::uint32_t> ambiguous;
-  /// Points one of whose projections was refused: no way over the mesh leads to where it is the nearest.
+  /// Points one of whose projections was left out: no path on the mesh, along which that projection varies
+  /// continuously, leads to a point whose nearest it is.
   std::vector<std::uint32_t> gated;
-  /// Number of points with projections that cannot be told apart.
+  /// Number of points with a LocalMinimum::cluster among their projections.
   std::size_t clusters = 0;
-  /// Number of places in use, over all points.
-  std::size_t places = 0;
+  /// Number of shares, over all points.
+  std::size_t shares = 0;
 };
 
 }  // namespace tendril::bind

@@ -11,14 +11,17 @@ namespace tendril::bind {
 /// any vector unit, and for a point alone. Immutable, cheap to copy.
 class TENDRIL_BIND_API Bindingf {
  public:
+  /// \param binding  copied, which shares its arrays; its records are rounded. O(shares)
   explicit Bindingf(const Binding& binding);
 
-  std::size_t size() const { return binding_.size(); }
-  const Binding& binding() const { return binding_; }
+  std::size_t size() const { return binding_.size(); }  ///< number of points
+  const Binding& binding() const { return binding_; }   ///< in double precision
 
   /// As Binding::update: in the order of the points, or, which is fastest, in binding order.
   void update(std::span<const CurvePair> posed, std::span<Eigen::Vector3f> out, int threads = 1) const;
+  /// The same in binding order.
   void update(std::span<const CurvePair> posed, const Columns<float>& out, int threads = 1) const;
+  /// One point alone: the same bits as update gives it.
   Eigen::Vector3f at(std::span<const CurvePair> posed, std::size_t point) const;
 
  private:

@@ -11,8 +11,9 @@
 /// All throw InvalidInput, and write nothing, when require_valid(mesh) does.
 namespace tendril::bind {
 
+/// How a PLY file is written.
 struct PlyOptions {
-  /// Coordinates and normals in single precision: half the size, for frames that are only looked at. Values
+  /// Coordinates and normals in single precision: half the size, for frames that are only displayed. Values
   /// beyond its range are refused.
   bool float32 = false;
 };

@@ -7,7 +7,7 @@
 
 #include <map>
 
-/// The door for meshes: any model of CGAL's FaceGraph (Surface_mesh, Polyhedron_3, OpenMesh through CGAL's
+/// Meshes of any type: any model of CGAL's FaceGraph (Surface_mesh, Polyhedron_3, OpenMesh through CGAL's
 /// adaptor, a user's own) with a vertex point map whose value has operator[] and a constructor from three
 /// numbers. Only BGL and property maps are used, no kernel and no GPL package.
 namespace tendril::bind {
@@ -24,6 +24,7 @@ std::vector<Vec3> points_of(const Graph& graph, PointMap map) {
   return points;
 }
 
+/// The same by the graph's own point map.
 template <class Graph>
 std::vector<Vec3> points_of(const Graph& graph) {
   return points_of(graph, get(CGAL::vertex_point, graph));
@@ -57,16 +58,18 @@ void assign_points(Graph& graph, PointMap map, Points points) {
   }
 }
 
+/// The same by the graph's own point map.
 template <class Graph>
 void assign_points(Graph& graph, Points points) {
   assign_points(graph, get(CGAL::vertex_point, graph), points);
 }
 
 /// Binds a mesh's vertices and moves the mesh itself at every call of follow. The graph is kept by reference
-/// and must not gain or lose vertices.
+/// and must not gain or lose vertices. Throws InvalidInput as Binding does.
 template <class Graph, class PointMap = typename boost::property_map<Graph, CGAL::vertex_point_t>::type>
 class FaceGraphFollower : public Follower {
  public:
+  /// To the nearest point of one curve-pair, which is number `pair` of the simulation.
   FaceGraphFollower(Graph& graph, PointMap map, const CurvePair& rest, std::size_t pair = 0, int threads = 1)
       : graph_(graph),
         map_(map),
@@ -85,6 +88,7 @@ class FaceGraphFollower : public Follower {
         pair_(pair),
         threads_(options.threads) {}
 
+  /// The same by the graph's own point map.
   FaceGraphFollower(Graph& graph, const CurvePair& rest, std::size_t pair = 0, int threads = 1)
       : FaceGraphFollower(graph, get(CGAL::vertex_point, graph), rest, pair, threads) {}
 
@@ -92,7 +96,7 @@ class FaceGraphFollower : public Follower {
     binding_.update(pairs.subspan(pair_, binding_.pair_count()), points_, threads_);
     assign_points(graph_, map_, points_);
   }
-  const Binding& binding() const { return binding_; }
+  const Binding& binding() const { return binding_; }  ///< of its vertices, in the order of vertices(graph)
 
  private:
   Graph& graph_;

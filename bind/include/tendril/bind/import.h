@@ -17,42 +17,43 @@
 /// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
 /// that contradicts itself. A face that names a vertex twice is accepted.
 ///
-/// With `notes`, faces that follow the last one that a text OFF's header counts are kept, and the notes say
-/// so with place and number; without, nobody would be told, and they are refused as left over.
+/// A text OFF that holds more faces than its header counts: with `notes` the surplus faces are kept, and a
+/// note gives their line and number; without, they are refused as data left over.
 ///
 /// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
 /// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
 /// order.
 namespace tendril::bind {
 
-/// Reads a file. The format is told by its first bytes, not by its name.
+/// Reads a file. The format is recognised by its first bytes, not by its name.
 /// Throws FileError when it cannot be read, InvalidInput when it is neither OFF nor PLY or malformed.
+/// \param path   a regular file
+/// \param notes  where remarks are appended; null: none are made
 TENDRIL_BIND_API PolygonMesh read_mesh(const std::string& path, std::vector<std::string>* notes = nullptr);
 
-/// OFF of Geomview's manual, section "OFF files": text or binary (big-endian), the keyword required, '#'
+/// OFF [Geomview], section "OFF files" of its manual: text or binary (big-endian), the keyword required, '#'
 /// comments.
 /// - Prefixes N (normals), C (colors) and ST (texture, dropped); each vertex holds point, normal, color,
-/// texture in
-///   this order. 4OFF and nOFF are refused: their points are not points of space.
+///   texture in this order. 4OFF and nOFF are refused: their points are not points of space.
 /// - Colors are 3 or 4 numbers; a color without alpha is opaque. They are 0..255 when all vertices' (or all
-/// faces')
-///   are whole numbers, else 0..1. A face color of one number is an index into a palette that is not in the
-///   file: it is read and dropped. Faces without a color among faces that have one get Geomview's default,
-///   grey 0.666.
+///   faces') are whole numbers, else 0..1. A face color of one number is an index into a palette that is not
+///   in the file: it is read and dropped. Faces without a color among faces that have one get Geomview's
+///   default, grey 0.666.
 /// - In text, what follows a vertex's color or a face's corners ends with the line; the rest is free-form.
-/// `name` stands for the file in errors.
+/// \param bytes  the whole file
+/// \param name   stands for the file in errors
 TENDRIL_BIND_API PolygonMesh parse_off(std::string_view bytes, const std::string& name);
 
-/// PLY 1.0 (G. Turk, "The PLY polygon file format", 1994): ascii, binary_little_endian, binary_big_endian.
+/// PLY 1.0 [Turk 1994]: ascii, binary_little_endian, binary_big_endian.
 /// - Scalar types char .. double, their sized names int8 .. float64, and int64/uint64. Text is read in double
-/// precision
-///   whatever floating type the header gives.
+///   precision whatever floating type the header gives.
 /// - Used: vertex x y z, nx ny nz, red green blue alpha; face vertex_indices or vertex_index, red green blue
-/// alpha.
-///   Elements stand in any order; other elements and properties are skipped. Colors of floating type are
-///   0..1, of integer type 0..255.
+///   alpha. Elements stand in any order; other elements and properties are skipped. Colors of floating type
+///   are 0..1, of integer type 0..255.
 /// - In text, elements begin on a line of their own.
 /// - Triangle strips are refused: skipping them would lose the surface.
+/// \param bytes  the whole file
+/// \param name   stands for the file in errors
 TENDRIL_BIND_API PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 
 }  // namespace tendril::bind

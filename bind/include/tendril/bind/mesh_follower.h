@@ -14,15 +14,18 @@ class TENDRIL_BIND_API MeshFollower : public Follower {
   /// \param binding  kept by reference
   /// \param pair     index of the binding's first curve-pair among those of the simulation; its others follow
   /// \param out      binding.size() points, kept by reference
+  /// \param threads  1 to 256
   MeshFollower(const Binding& binding, std::size_t pair, MutablePoints out, int threads = 1);
-  /// \param pairs  indices of the binding's curve-pairs among those of the simulation; as many as it has
+  /// \param binding  kept by reference
+  /// \param pairs    indices of the binding's curve-pairs among those of the simulation; as many as it has
+  /// \param out      binding.size() points, kept by reference
+  /// \param threads  1 to 256
   MeshFollower(const Binding& binding, std::vector<std::size_t> pairs, MutablePoints out, int threads = 1);
 
   void follow(double time, std::span<const CurvePair> pairs) override;
 
-  /// Time of the last update, and how many there were.
-  double time() const { return time_; }
-  long updates() const { return updates_; }
+  double time() const { return time_; }      ///< of the last update
+  long updates() const { return updates_; }  ///< number of them
 
  private:
   const Binding& binding_;

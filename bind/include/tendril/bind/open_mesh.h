@@ -10,14 +10,17 @@ namespace tendril::bind {
 template <class Mesh>
 class OpenMeshPointMap {
  public:
-  using key_type = typename Mesh::VertexHandle;
-  using value_type = typename Mesh::Point;
-  using reference = value_type;
-  using category = boost::read_write_property_map_tag;
+  using key_type = typename Mesh::VertexHandle;         ///< of Boost's concept
+  using value_type = typename Mesh::Point;              ///< of Boost's concept
+  using reference = value_type;                         ///< of Boost's concept
+  using category = boost::read_write_property_map_tag;  ///< of Boost's concept
 
+  /// \param mesh  kept by reference
   explicit OpenMeshPointMap(Mesh& mesh) : mesh_(&mesh) {}
 
+  /// Position of a vertex.
   friend reference get(const OpenMeshPointMap& map, key_type vertex) { return map.mesh_->point(vertex); }
+  /// Sets it.
   friend void put(const OpenMeshPointMap& map, key_type vertex, const value_type& point) {
     map.mesh_->set_point(vertex, point);
   }

@@ -19,16 +19,16 @@ using Color = std::array<std::uint8_t, 4>;
 /// Face f has the corners `corners[face_begin[f] .. face_begin[f + 1])`, indices into `points`. `face_begin`
 /// has one entry more than there are faces, and starts with 0; a mesh without faces has `face_begin == {0}`.
 struct PolygonMesh {
-  std::vector<Vec3> points;
-  std::vector<std::uint32_t> face_begin{0};
-  std::vector<std::uint32_t> corners;
+  std::vector<Vec3> points;                  ///< positions
+  std::vector<std::uint32_t> face_begin{0};  ///< ascending indices into corners
+  std::vector<std::uint32_t> corners;        ///< of all faces, in order
 
-  // Attributes: empty when the file has none, else one entry per point or per face.
-  std::vector<Vec3> point_normals;
-  std::vector<Color> point_colors;
-  std::vector<Color> face_colors;
+  std::vector<Vec3> point_normals;  ///< none, or one per point; of any length
+  std::vector<Color> point_colors;  ///< none, or one per point
+  std::vector<Color> face_colors;   ///< none, or one per face
 
-  std::size_t face_count() const { return face_begin.size() - 1; }
+  std::size_t face_count() const { return face_begin.size() - 1; }  ///< number of faces
+  /// Corners of face f < face_count(), valid as long as the mesh.
   std::span<const std::uint32_t> face(std::size_t f) const {
     return std::span(corners).subspan(face_begin[f], face_begin[f + 1] - face_begin[f]);
   }
@@ -40,7 +40,7 @@ struct PolygonMesh {
 /// corners).
 TENDRIL_BIND_API void require_valid(const PolygonMesh& mesh);
 
-/// Diagonal of the axis-aligned bounding box of the points; 0 for none. The "size" tolerances are relative
+/// Diagonal of the axis-aligned bounding box of the points; 0 for none. The size that tolerances are relative
 /// to.
 TENDRIL_BIND_API double bounding_diagonal(Points points);
 

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kDropped = 0xffffffff;
 
 /// A mended mesh, and what became of every point and face of the one before.
 struct TENDRIL_BIND_API Repaired {
-  PolygonMesh mesh;
+  PolygonMesh mesh;                  ///< mended
   std::vector<std::uint32_t> point;  ///< per point before, its id now; of merged points that of the one kept
   std::vector<std::uint32_t> face;   ///< per face before, its id now
   std::vector<std::uint32_t> shortened;  ///< faces now that lost corners which merged with the one before
@@ -27,7 +27,7 @@ struct TENDRIL_BIND_API Repaired {
   /// Edges of two faces whose faces could not be made to agree: the surface has one side only (Moebius).
   std::vector<Edge> one_sided;
 
-  bool changed() const;
+  bool changed() const;  ///< whether anything was mended
 };
 
 /// Mends a copy of the mesh. What is kept keeps its order, its coordinates to the last bit and its

@@ -24,9 +24,9 @@ class TENDRIL_CORE_API InvalidInput : public Error {
   /// \param expected  what would have been right
   InvalidInput(const std::string& place, const std::string& reason, const std::string& expected);
 
-  const std::string& place() const { return place_; }
-  const std::string& reason() const { return reason_; }
-  const std::string& expected() const { return expected_; }
+  const std::string& place() const { return place_; }        ///< as given to the constructor
+  const std::string& reason() const { return reason_; }      ///< as given to the constructor
+  const std::string& expected() const { return expected_; }  ///< as given to the constructor
 
  private:
   std::string place_, reason_, expected_;
@@ -35,9 +35,11 @@ class TENDRIL_CORE_API InvalidInput : public Error {
 /// A file cannot be opened, read or written; what() holds its name and the system's reason.
 class TENDRIL_CORE_API FileError : public Error {
  public:
+  /// \param path    the file's name, as the caller gave it
+  /// \param reason  the system's reason, or what kind of file it is
   FileError(const std::string& path, const std::string& reason);
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return path_; }  ///< as given to the constructor
 
  private:
   std::string path_;

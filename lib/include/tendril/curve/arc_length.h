@@ -15,9 +15,10 @@ namespace tendril {
 /// independent of the curve afterwards.
 class TENDRIL_CORE_API ArcLength {
  public:
+  /// \param curve  copied; any, a single point included
   explicit ArcLength(const BSpline& curve);
 
-  double total() const { return lengths_.back(); }
+  double total() const { return lengths_.back(); }  ///< of the whole curve [length]
 
   /// s(t), from 0 to total(); t is clamped to the domain, a NaN is InvalidInput. Does not decrease beyond
   /// rounding (1e-15 of the total), and is exact at both ends. O(log cells) and ten evaluations of c'.

@@ -7,13 +7,14 @@
 
 namespace tendril {
 
-/// A consumer of steps: what turns the moving curve-pairs into a mesh, a file, a collision watch. Called once
-/// per accepted step or once per output time, never on a step that is later thrown away.
+/// A consumer of steps: what turns the moving curve-pairs into a mesh, a file, a collision query. Called once
+/// per accepted step or once per output time, never on a step that is rejected later.
 class TENDRIL_CORE_API Follower {
  public:
   virtual ~Follower() = default;
 
-  /// \param pairs  the curve-pairs through the point masses at `time`, one per rod, valid during the call
+  /// \param time   of the state
+  /// \param pairs  the curve-pairs through the point masses at that time, one per rod, valid during the call
   virtual void follow(double time, std::span<const CurvePair> pairs) = 0;
 };
 

@@ -4,10 +4,11 @@
 
 namespace tendril {
 
-/// Joins a child rod to a node of a parent rod (thesis 3.6). The child's first node is that node: same
-/// position, masses merged; its frame rides on the parent's frame, F_0 = F_j R_0 with R_0 the rest rotation
-/// between the two. The child's springs at its first node (bend_l[0], bend_m[0], bend_t[0], and twist[0] to
-/// the next) are the joint's: set them in the child's Rod to make the joint softer or stiffer than the rod.
+/// Joins a child rod to a node of a parent rod ([Chan 2008] section 3.6). The child's first node is that
+/// node: same position, masses merged; its frame is fixed to the parent's frame, F_0 = F_j R_0 with R_0 the
+/// rest rotation between the two. The child's springs at its first node (bend_l[0], bend_m[0], bend_t[0], and
+/// twist[0] to the next) are the joint's: set them in the child's Rod to make the joint softer or stiffer
+/// than the rod.
 ///
 /// The reaction comes from the same energy: with g_t and g_s its derivatives by the child's root tangent t_0
 /// and spin, and T = t_0 x g_t + t_0 g_s, the parent's node receives T x t_j and T.t_j, and the force on the
@@ -15,9 +16,8 @@ namespace tendril {
 /// turns with the parent's node.
 struct Joint {
   std::size_t parent = 0;  ///< rod
-  std::size_t node =
-      0;  ///< of the parent; there the child's first rest point must lie, to 1e-9 of its length
-  std::size_t child = 0;  ///< rod; at most one joint, no cycles
+  std::size_t node = 0;  ///< of the parent; the child's first rest point must be there, to 1e-9 of its length
+  std::size_t child = 0;  ///< rod; at most one joint a child, no cycles
   bool reaction = true;   ///< false: the child follows and the parent does not feel it (one-way hierarchy)
 };
 

@@ -12,22 +12,22 @@ namespace tendril {
 /// joins the nodes i and i + 1. Whatever the rest shape (curved, twisted), it carries no stress.
 struct Rod {
   std::vector<Vec3> p;  ///< rest positions of the primary masses, n >= 2
-  std::vector<Vec3>
-      q;  ///< rest positions of the orientation masses; only their direction across the tangent matters
+  std::vector<Vec3> q;  ///< of the orientation masses; only their direction across the tangent matters
 
   std::vector<double> mass;     ///< per node
   std::vector<double> inertia;  ///< per node, for the spin about the tangent [mass length^2]
 
   std::vector<double> stretch;  ///< per edge, K_s: 1/2 K_s (|e| - L)^2 [force / length]
-  /// Per node, for the angle of each adjacent edge to the frame's axes [torque / rad]: 1/2 K (angle - rest)^2
-  /// with asin(e.l), asin(e.m) and, the thesis's third spring, the angle between e and t.
-  std::vector<double> bend_l, bend_m, bend_t;
-  std::vector<double> twist;  ///< per edge, K_w: 1/2 K_w (tau - rest)^2 [torque / rad]
-  std::vector<double> width;  ///< per edge, for drag [length]
+  /// Per node [torque / rad]: 1/2 K (asin(e.l) - rest)^2 for each adjacent edge e.
+  std::vector<double> bend_l;
+  std::vector<double> bend_m;  ///< the same of asin(e.m)
+  std::vector<double> bend_t;  ///< the same of the angle between e and t, the third spring of [Chan 2008]
+  std::vector<double> twist;   ///< per edge, K_w: 1/2 K_w (tau - rest)^2 [torque / rad]
+  std::vector<double> width;   ///< per edge, for drag [length]
 
   double mass_damping = 0.0;  ///< alpha [1 / time]: force -alpha m v, torque -alpha I w
-  double viscosity =
-      0.0;  ///< beta of Kelvin-Voigt [time]: each spring but the third acts on strain + beta strain'
+  /// beta of Kelvin-Voigt [time]: each spring but the third acts on strain + beta strain'.
+  double viscosity = 0.0;
 };
 
 /// A homogeneous, linearly elastic material.
@@ -37,23 +37,31 @@ struct Material {
   double density;  ///< rho [mass / length^3], positive
 };
 
-/// Rod of one material and section. With L the edge's rest length and L_v the mean of those at a node (the
-/// half-length sum at the ends is half an edge): K_s = E A / L, K_l = 2 E I_1 / L_v, K_m = 2 E I_2 / L_v, K_w
-/// = G J / L, mass rho A times the half-length sum, spin inertia rho I_p times it. The third spring is 0. A
-/// clamped cantilever of it converges to the elastica at second order in the edge length.
+/// Rod of one material and section. With L an edge's rest length, L_v the mean of those at a node and H_v half
+/// their sum, which differ at the ends: K_s = E A / L, K_l = 2 E I_1 / L_v, K_m = 2 E I_2 / L_v, K_w = G J / L,
+/// mass rho A H_v, spin inertia rho I_p H_v; the third spring is 0. A clamped cantilever of it converges to the
+/// elastica at second order in the edge length. Throws InvalidInput for numbers of points that differ, edges of
+/// length 0, and a material that is not positive.
+/// \param p         rest positions, at least 2
+/// \param q         orientation masses, as many
+/// \param material  of the whole rod
+/// \param section   of the whole rod, its axes 1 and 2 along l and m
 TENDRIL_CORE_API Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
                               const Material& material, const Section& section);
 
-/// The thesis's own constants, the same at every node and edge (K^t of 3.11; K_theta, K_lambda, K_beta
-/// of 3.12; K_omega of 3.15).
+/// The constants of [Chan 2008], the same at every node and edge.
 struct SpringConstants {
-  double stretch;
-  double bend_l, bend_m, bend_t;
-  double twist;
-  double mass;     ///< of one p_i
-  double inertia;  ///< of one q_i about the tangent: m_q r^2
-  double width = 0.0;
+  double stretch;      ///< K^t of 3.11
+  double bend_l;       ///< K_theta of 3.12
+  double bend_m;       ///< K_lambda of 3.12
+  double bend_t;       ///< K_beta of 3.12
+  double twist;        ///< K_omega of 3.15
+  double mass;         ///< of one p_i
+  double inertia;      ///< of one q_i about the tangent: m_q r^2
+  double width = 0.0;  ///< for drag [length]
 };
+
+/// Rod of these constants. Throws InvalidInput as above.
 TENDRIL_CORE_API Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
                               const SpringConstants& springs);
 

@@ -5,9 +5,8 @@
 
 namespace tendril {
 
-/// RODAS (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.7): a linearly implicit
-/// Rosenbrock method of order 4 with an embedded one of order 3, six stages, L-stable and stiffly accurate.
-/// No iteration: one matrix a step,
+/// RODAS ([Hairer and Wanner 1996] section IV.7): a linearly implicit Rosenbrock method of order 4 with an
+/// embedded one of order 3, six stages, L-stable and stiffly accurate. No iteration: one matrix a step,
 ///
 ///   s^2 M - s F_u - F_x - s M C + F_u C,   s = 1 / (h gamma),
 ///

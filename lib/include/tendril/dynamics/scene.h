@@ -10,15 +10,22 @@
 
 namespace tendril {
 
-/// What a scene is made of, as the user says it.
+/// What a scene is made of. Plain data; System checks it.
 struct Scene {
-  std::vector<Rod> rods;
-  std::vector<Anchor> anchors;
-  std::vector<Joint> joints;
-  std::vector<std::shared_ptr<const Force>> forces;
-  /// Whether the twist angle and spin of each node are states. Left out, each rod keeps the directors that
-  /// are carried along it without twist, and bends by the angle alone.
-  enum class Twist { where_needed, everywhere } twist = Twist::where_needed;
+  std::vector<Rod> rods;                             ///< at least one
+  std::vector<Anchor> anchors;                       ///< at most one a node
+  std::vector<Joint> joints;                         ///< make trees of the rods
+  std::vector<std::shared_ptr<const Force>> forces;  ///< none null
+
+  /// Which rods have the twist angle and spin of each node in their state. The others keep the directors that
+  /// parallel transport carries along them, and bend by the angle between edges alone.
+  enum class Twist {
+    /// Rods with unequal bending stiffnesses, a curved rest shape, viscosity, a joint, a moving held frame or
+    /// several held frames; all when a force twists.
+    where_needed,
+    everywhere  ///< all rods
+  };
+  Twist twist = Twist::where_needed;  ///< how it is decided
 };
 
 }  // namespace tendril

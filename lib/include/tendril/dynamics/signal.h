@@ -20,8 +20,8 @@ class TENDRIL_CORE_API Signal {
   /// InvalidInput.
   static Signal table(std::vector<std::pair<double, double>> entries);
 
-  double operator()(double t) const;
-  bool is_constant() const { return kind_ == Kind::constant; }
+  double operator()(double t) const;                            ///< f(t)
+  bool is_constant() const { return kind_ == Kind::constant; }  ///< made by constant()
   /// Times where the value or its slope jumps, ascending: the integrator ends a step there.
   std::vector<double> breaks() const;
 

@@ -11,14 +11,17 @@ TENDRIL_CORE_API double cash_karp_amplification(double re, double im);
 /// How much a run may amplify its fastest oscillation.
 struct GuardLimits {
   double per_step;  ///< |R| - 1 of one step
-  double whole;     ///< sum of it over the run
+  double whole;     ///< the sum of that over the run
   double duration;  ///< of what is left of the run
 };
 
 /// Largest step h at which no oscillator x'' + (alpha + beta w^2) x' + w^2 x = 0 with w <= frequency is
 /// amplified beyond the limits. Undamped, |R(iy)| - 1 = y^6 / 7200: 1e-6 a step is h w = 0.44. Infinite for
-/// frequency 0; 0 where frequency or beta w^2 is beyond numbers. \param alpha  mass-proportional damping [1 /
-/// time], \param beta  Kelvin-Voigt viscosity [time]
+/// frequency 0; 0 where frequency or beta w^2 is not finite.
+/// \param frequency  largest one of the system [rad / time]
+/// \param alpha      mass-proportional damping [1 / time]
+/// \param beta       Kelvin-Voigt viscosity [time]
+/// \param limits     what is allowed
 TENDRIL_CORE_API double guard_step(double frequency, double alpha, double beta, const GuardLimits& limits);
 
 }  // namespace tendril

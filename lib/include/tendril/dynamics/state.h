@@ -16,30 +16,35 @@ namespace tendril {
 /// Of a rod without twist state only one node's reference is kept (the last with a held frame, or the first):
 /// the others' directors follow it along the rod. System::frames has them all.
 struct State {
-  double time = 0.0;
-  Eigen::VectorXd y;
-  std::vector<Vec3> tangent, director;  ///< reference frames, renewed after every accepted step
-  std::vector<double> twist;            ///< unwrapped twist of each edge at the reference
+  double time = 0.0;           ///< [time]
+  Eigen::VectorXd y;           ///< the integrated numbers
+  std::vector<Vec3> tangent;   ///< reference tangents, unit; renewed after every accepted step
+  std::vector<Vec3> director;  ///< reference directors m, unit and across the tangents; renewed with them
+  std::vector<double> twist;   ///< unwrapped twist of each edge at the reference [rad]
 };
 
 /// Whether the equations could be evaluated, and if not, why and where.
 struct Evaluation {
+  /// What happened.
   enum class Outcome {
-    ok,
-    zero_edge,
-    fold_back,
-    turned_too_far,
-    not_finite,
-    not_converged  ///< an implicit step's equations
-  } outcome = Outcome::ok;
-  std::size_t node = 0;  ///< flat index
-  bool ok() const { return outcome == Outcome::ok; }
+    ok,              ///< evaluated
+    zero_edge,       ///< an edge of length 0
+    fold_back,       ///< two opposite edges at a node: it has no tangent
+    turned_too_far,  ///< a tangent opposite to its reference: no smallest rotation between the two
+    not_finite,      ///< a number that overflowed, or was not finite to begin with
+    not_converged    ///< an implicit step's equations
+  };
+  Outcome outcome = Outcome::ok;                      ///< why
+  std::size_t node = 0;                               ///< where: flat index
+  bool ok() const { return outcome == Outcome::ok; }  ///< whether results may be used
 };
 
 /// Energies in the scene's units. total() + work taken out is constant up to the integration error.
 struct Energies {
-  double kinetic = 0.0, elastic = 0.0, potential = 0.0;
-  double total() const { return kinetic + elastic + potential; }
+  double kinetic = 0.0;                                           ///< of masses and spins
+  double elastic = 0.0;                                           ///< of all springs
+  double potential = 0.0;                                         ///< of the forces that have an energy
+  double total() const { return kinetic + elastic + potential; }  ///< their sum
 };
 
 }  // namespace tendril
