@@ -12,10 +12,23 @@
 /// for the search of one point and for many points side by side in vector lanes, so that both give the same
 /// bits.
 ///
-/// With control points R_i relative to the point, n = 2 P and D(s) = |R(s)|^2 = sum_k D_k B_{k,n}(s), the
-/// differences G_k = D_{k+1} - D_k are G_k = sum_{i+j=k} w_ij R_i . (R_{j+1} - R_j),
-/// w_ij = C(P,i) C(P-1,j) / C(2P-1,k): formed in this way their errors are relative to |R| |E| (E: the
-/// largest edge of the control polygon), not to |R|^2.
+/// Let R_i be the control points relative to the point, E_j = R_{j+1} - R_j, n = 2 P and
+/// D(s) = |R(s)|^2 = sum_k D_k B_{k,n}(s). From D' = 2 R . R', R' = P sum_j E_j B_{j,P-1} and the product
+/// B_{i,P} B_{j,P-1} = w_ij B_{i+j,2P-1}, w_ij = C(P,i) C(P-1,j) / C(2P-1,i+j), the differences
+/// G_k = D_{k+1} - D_k, which are the coefficients of D' / n, come to
+///
+///   G_k = sum over i + j = k of w_ij R_i . E_j.
+///
+/// Error bounds, u = 2^-53 (kUnit), |R| a bound on all |R_i|, |E| on all |E_j|; the R_i count as exact. The
+/// weights of one k sum to 1 (Vandermonde), so rounding is relative to |R| |E|: 1 u for the edge, 3 u for the
+/// dot product, 1 u for the weight, 1 u for its product, at most 4 u for P - 1 <= 4 additions, in all 10 u
+/// and second-order terms [Higham 2002]; `slope_error` is 16 u |R| |E|. Differences of the squares |R_i|^2
+/// would have errors relative to |R|^2, which is useless for a short piece far away. D_k is D_0 plus k of the
+/// G, all partial sums at most |R|^2: (3 + 2 P) u |R|^2 for D_0 and the additions, 2 P slope_error for the G;
+/// `error` is (2 P + 4) u |R|^2 + 2 P slope_error.
+///
+/// So, for the exact curve with these R_i: all D >= `least` - `error`; D rises where all G_k > slope_error,
+/// and falls where all are below -slope_error.
 namespace tendril::search {
 
 inline constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
@@ -102,7 +115,8 @@ TENDRIL_INLINE std::pair<double, double> slope_range(const SquaredDistance<P>& d
   return {least, most};
 }
 
-/// Lower bound on D'' when positive.
+/// Lower bound on D'' when positive: D'' has the coefficients n (n - 1) (G_{k+1} - G_k), each difference with
+/// an error of at most 2 slope_error and its own rounding, u times at most 2 |R| |E|: below 2.5 slope_error.
 template <int P>
 TENDRIL_INLINE double convexity(const SquaredDistance<P>& d) {
   double least_step = std::numeric_limits<double>::infinity();
@@ -134,7 +148,7 @@ TENDRIL_INLINE Jet jet(const Control<P>& points, double s) {
   return {r * q[0] + s * q[1], static_cast<double>(P) * (q[1] - q[0]), second};
 }
 
-/// A place near the root of D': Newton's method on the coefficients, cheaper than on the curve. Needs
+/// An approximate root of D': Newton's method on the coefficients, cheaper than on the curve. Needs
 /// G_0 < 0 < G_n and ascending G.
 template <std::size_t N>
 TENDRIL_INLINE double guess(const std::array<double, N>& g) {
@@ -148,9 +162,9 @@ TENDRIL_INLINE double guess(const std::array<double, N>& g) {
       });
     const double value = r * q[0] + s * q[1], rate = static_cast<double>(N - 1) * (q[1] - q[0]);
     const double next = rate > 0.0 ? s - value / rate : s;
-    const double half_way = 0.5 * (s + (next < 0.5 ? 0.0 : 1.0));
+    const double bisected = 0.5 * (s + (next < 0.5 ? 0.0 : 1.0));
     const bool inside = (next > 0.0) & (next < 1.0);
-    s = inside ? next : half_way;
+    s = inside ? next : bisected;
   });
   return s;
 }
@@ -190,8 +204,13 @@ TENDRIL_INLINE Root step(const Control<P>& points, double reach, const Root& fro
   return root;
 }
 
-/// Proven: no distance on the piece is smaller. D is convex with D'' >= convexity, so
-/// D >= D(s) - |D'(s)| width and D >= D(s) - D'(s)^2 / (2 convexity).
+/// Proven: no distance on the piece is smaller. D is convex with D'' >= m, m the convexity, and its minimum
+/// lies in the bracket, so D(x) >= D(s) + D'(s) (x - s) + m / 2 (x - s)^2 gives D >= D(s) - |D'(s)| width
+/// and, at the minimum of the right side over x, D >= D(s) - D'(s)^2 / (2 m).
+///
+/// D'(s) / 2 = c . c' as evaluated has an error: de Casteljau's scheme gives c to 8 P u reach and c', P times
+/// differences of points, to P times that, so |c| times the one and |c'| times the other are added. The
+/// square is lowered by its own rounding (kLess), the root by the error of c.
 template <int P>
 TENDRIL_INLINE double lower_bound(const Root& root, double reach, double convexity) {
   const double speed_error = 8.0 * P * kUnit * P * reach;

@@ -18,8 +18,9 @@ Capsule around(Points points) {
 namespace {
 
 /// The same for a Bezier piece of degree n, where the curve allows a smaller radius than its control points
-/// P_i: c(t) differs from the segment's point at t by sum_i B_i(t) (P_i - (start + i / n axis)), and the
-/// weights of the inner i sum up to 1 - 2^(1 - n) at most.
+/// P_i. The segment is the Bezier curve with the points start + i / n axis, so c(t) differs from its point at
+/// t by sum_i B_i(t) (P_i - start - i / n axis). The terms i = 0 and i = n vanish, and the weights of the
+/// others sum to 1 - t^n - (1 - t)^n <= 1 - 2^(1 - n), attained at t = 1/2.
 Capsule around_piece(Points points) {
   Capsule capsule = around(points);
   const double n = static_cast<double>(points.size() - 1);

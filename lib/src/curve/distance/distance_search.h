@@ -20,11 +20,11 @@ inline constexpr int kMaxSteps = 120;
 
 /// Shares of a search that do not depend on the degree.
 struct Bounds {
-  double flat;   ///< a sub-piece whose distance varies less is settled
+  double flat;   ///< a sub-piece whose distance varies less is resolved
   double slack;  ///< margin of every rejection: far above rounding, so that the outcome does not depend on
                  ///< the bound a search started from
   double blur;   ///< distance between the local curve and BSpline::value
-  double proof;  ///< a root is settled when the bound on the distances around it is so close
+  double proof;  ///< a root is resolved when the bound on the distances around it is so close
 };
 
 /// One Bezier sub-piece.
@@ -126,7 +126,7 @@ class Search {
     while (count > 0) {
       Interval<P>& interval = waiting[count - 1];
       interval.form();
-      if (dropped(interval) || settled(piece, interval)) {
+      if (dropped(interval) || resolved(piece, interval)) {
         --count;
         continue;
       }
@@ -144,7 +144,7 @@ class Search {
     return false;
   }
 
-  bool settled(const Piece<P>& piece, const Interval<P>& interval) {
+  bool resolved(const Piece<P>& piece, const Interval<P>& interval) {
     const auto [least_slope, most_slope] = slope_range<P>(interval);
     if (least_slope > interval.slope_error) return take_end(piece, interval.low, interval.points.front());
     if (most_slope < -interval.slope_error) return take_end(piece, interval.high, interval.points.back());

@@ -4,9 +4,14 @@
 
 namespace tendril {
 
-/// Unevaluated sum of two doubles, about 106 bits (Dekker 1971; Knuth's two-sum). For the few sub-pieces
-/// whose slopes a double cannot sign. Errors of + and - are relative to |a| + |b|, of * to |a b|: 2^-102
-/// covers each.
+/// Unevaluated sum of two doubles, about 106 bits [Dekker 1971]. For the few sub-pieces whose slopes a double
+/// cannot sign.
+///
+/// Errors, u = 2^-53, |low| <= u |high|. sum() is exact ([Knuth 1997] 4.2.2). In a + b two numbers of at most
+/// u (|a| + |b|) each are added with roundings: 3 u^2 (|a| + |b|), relative to the sizes, not to the sum,
+/// which may cancel. In a b the product of the lows is left out, u^2, and the cross terms are rounded: u^2
+/// and 2 u^2 in their sum, with a product and 3 u^2 on adding the error of a.high b.high, which fma gives
+/// exactly; in all below 8 u^2 |a b| = 2^-103 |a b|. `unit_of` is 2^-102 for each.
 struct DoubleDouble {
   double high = 0.0, low = 0.0;
 

@@ -5,8 +5,17 @@
 #include "slope.h"
 
 /// The search behind CurveProjector::all, for one degree P: a sweep along the curve that turns certified
-/// signs of the distance's slope into minima. A minimum is a change from falling to rising; nothing is said
-/// at a joint itself, whose two sides may round to opposite signs, so it is neither missed nor met twice.
+/// signs of the distance's slope into minima.
+///
+/// A curve is the sequence of its sub-pieces, each cut into stretches on whose interior the slope of the
+/// squared distance has a proven sign, one proven root (a minimum or a maximum), or an unknown sign. Only
+/// changes of sign between consecutive known ones count: falling, then rising, is one minimum, wherever
+/// between the two it is. So a minimum at a joint, where the two sides may round to opposite signs or none,
+/// is neither missed nor counted twice, and ends behave like joints to a curve that falls towards them. A
+/// stretch is halved until its sign is known, down to kDoubleDepth in doubles, then to kFineDepth in
+/// double-double arithmetic on points and edges formed anew from the spline; what is then left unknown is a
+/// cluster of at most most_roots() critical points, reported with the best distance in it and a gap that its
+/// coefficients prove.
 namespace tendril::search {
 
 struct Minimum {
@@ -16,7 +25,7 @@ struct Minimum {
 };
 
 /// One Bezier piece of the curve in double-double arithmetic. The edges come from the derivative's own
-/// control points, so that they vanish exactly where the curve stands still.
+/// control points, so that they vanish exactly where the curve has zero speed.
 template <int P>
 struct FinePiece {
   Polygon<P + 1, DoubleDouble> points;
@@ -24,10 +33,10 @@ struct FinePiece {
   std::array<double, P> sizes;  ///< of the edges before any cancellation
 };
 
-/// The state between stretches: what the distance does, and what has been left unsigned since.
-class Ridge {
+/// The state between stretches: the last known sign of the slope, and what has been left unsigned since.
+class MinimaRecorder {
  public:
-  Ridge(const BSpline& curve, const Vec3& p, double cut, double blur)
+  MinimaRecorder(const BSpline& curve, const Vec3& p, double cut, double blur)
       : curve_(curve), p_(p), cut_(cut), blur_(blur) {}
 
   /// From t on the distance falls (-1) or rises (1).
@@ -45,7 +54,7 @@ class Ridge {
 
   /// A stretch whose slope stays unsigned; a narrow one counts as a point.
   /// \param roots  what Stretch::most_roots says
-  void unsure(double low, double high, bool wide, int roots, double least, double most) {
+  void unsigned_stretch(double low, double high, bool wide, int roots, double least, double most) {
     if (!run_) run_ = Run{low, high, false, 0, 0, least, most};
     run_->high = high;
     run_->wide = run_->wide || wide;
@@ -55,14 +64,14 @@ class Ridge {
     run_->most = std::max(run_->most, most);
   }
 
-  void valley(double start, double t, double excess) {
+  void minimum(double start, double t, double excess) {
     trend(-1, start);
     take(t, excess, false, 1);
     leave(1, false);
   }
 
-  /// What follows is beyond the band: as good as a wall.
-  void far(double t) {
+  /// What follows is beyond the band: its sign does not matter, for no minimum there is reported.
+  void beyond_band(double t) {
     if (run_ && sign_ < 0) close(t, std::max(1, run_->multiplicity));
     leave(-1, true);
   }
@@ -112,8 +121,8 @@ class Sweep {
  public:
   static constexpr int kDoubleDepth = 30, kFineDepth = 36;
 
-  Sweep(const Vec3& p, double cut, double blur, Ridge& ridge)
-      : p_(p), cut2_(cut * cut), blur_(blur), ridge_(ridge) {}
+  Sweep(const Vec3& p, double cut, double blur, MinimaRecorder& recorder)
+      : p_(p), cut2_(cut * cut), blur_(blur), recorder_(recorder) {}
 
   /// \param fine  the Bezier piece the sub-piece is the `quarter`-th of `parts` of
   void examine(const Piece<P>& piece, const FinePiece<P>& fine, int quarter, int parts) {
@@ -140,7 +149,7 @@ class Sweep {
       Stretch<P, T>& stretch = waiting[count - 1];
       stretch.form();
       if (stretch.least - stretch.distance2_error > cut2_) {
-        ridge_.far(piece.parameter(stretch.low));
+        recorder_.beyond_band(piece.parameter(stretch.low));
         --count;
         continue;
       }
@@ -165,20 +174,20 @@ class Sweep {
   void report(const Stretch<P, T>& stretch, const Reading& reading, const Piece<P>& piece) {
     const double start = piece.parameter(stretch.low), end = piece.parameter(stretch.high);
     const auto vague = [&](bool is, double t) {
-      if (is) ridge_.unsure(t, t, false, 0, 0.0, 0.0);
+      if (is) recorder_.unsigned_stretch(t, t, false, 0, 0.0, 0.0);
     };
     vague(reading.low_vague, start);
     if (reading.trend == Trend::down || reading.trend == Trend::up) {
-      ridge_.trend(reading.trend == Trend::down ? -1 : 1, start);
-    } else if (reading.trend == Trend::peak) {
-      ridge_.trend(1, start);
-      ridge_.trend(-1, 0.5 * (start + end));
+      recorder_.trend(reading.trend == Trend::down ? -1 : 1, start);
+    } else if (reading.trend == Trend::maximum) {
+      recorder_.trend(1, start);
+      recorder_.trend(-1, 0.5 * (start + end));
     } else {
       const double grain =
           4 * kUnit * std::max(std::abs(piece.begin), std::abs(piece.end)) / (piece.end - piece.begin);
       const Valley valley = bottom(stretch, grain);
       const double s = stretch.low + valley.s * (stretch.high - stretch.low);
-      ridge_.valley(start, piece.parameter(s), valley.excess);
+      recorder_.minimum(start, piece.parameter(s), valley.excess);
     }
     vague(reading.high_vague, end);
   }
@@ -200,8 +209,9 @@ class Sweep {
     stretch.high = rest.high;
     stretch.depth = rest.depth;
     descend(stretch, piece, kFineDepth, [&](const Stretch<P, DoubleDouble>& open) {
-      ridge_.unsure(piece.parameter(open.low), piece.parameter(open.high), true, open.most_roots(),
-                    open.least - open.distance2_error, open.most + open.distance2_error);
+      recorder_.unsigned_stretch(piece.parameter(open.low), piece.parameter(open.high), true,
+                                 open.most_roots(), open.least - open.distance2_error,
+                                 open.most + open.distance2_error);
     });
   }
 
@@ -224,7 +234,7 @@ class Sweep {
 
   const Vec3 p_;
   double cut2_, blur_;
-  Ridge& ridge_;
+  MinimaRecorder& recorder_;
 };
 
 /// Bezier points of a span of a spline of degree N, by blossoming: `d` holds the N + 1 control points,

@@ -18,6 +18,11 @@
 /// G_k = P sum_{i+j=k} w_ij R_i . H_j of degree 2 P - 1 (the factor P is left out here). Points and edges are
 /// halved side by side, and the edges' sizes with them, so that the error stays relative to |R| |H| however
 /// short the stretch is, and however slow the curve is there.
+///
+/// Error of G_k, with u the unit of T: 24 u |R| |H| covers the sum as in bezier_distance.h. A halving makes
+/// at most P roundings of a point and P - 1 of an edge, each relative to the polygon before it, which the
+/// sizes follow: 4 P u |R| |H| a level. What points and edges come with enters as blur |H| (points), and
+/// doubt |R| + uncertain |R| |H| (edges, absolute and relative).
 namespace tendril::search {
 
 template <class T>
@@ -49,7 +54,7 @@ T bernstein(std::array<T, N> g, double s) {
 }
 
 /// What the signs of a slope prove on the open stretch.
-enum class Trend { down, up, valley, peak, unknown, noise };
+enum class Trend { down, up, minimum, maximum, unknown, noise };
 
 struct Reading {
   Trend trend;                 ///< noise: no coefficient has a certain sign
@@ -168,8 +173,10 @@ struct Stretch {
   static T dot(const Triple<T>& a, const Triple<T>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   int sign(std::size_t k) const { return g[k] > error ? 1 : g[k] < -error ? -1 : 0; }
 
-  /// With `count` uncertain coefficients at an end before one of size |value|, the sign can differ from that
-  /// one's only where error >= |value| C(n, count) s^count (1 - s)^n.
+  /// Whether uncertain signs at an end matter only within kNarrow of it. The first `count` coefficients there
+  /// add up to at most `error`; the next one, of size |value|, contributes at least
+  /// |value| C(n, count) s^count (1 - s)^n, n = 2 P - 1. So the slope has its sign where that is more than
+  /// error; for s < 0.1, (1 - s)^n >= 0.9^9 > 1 / 3, so from s^count = 3 error / (|value| C(n, count)) on.
   bool narrow(std::size_t count, double value) const {
     if (count == 0) return true;
     const double share = 3.0 * error / (std::abs(value) * binomial(2 * P - 1, static_cast<int>(count)));
@@ -195,15 +202,20 @@ struct Stretch {
     const auto [smallest, largest] = bend();
     // In doubles a valley must be firm enough to place its bottom to 1e-7 of the stretch.
     const double firm = std::is_same_v<T, double> ? 1e7 : 2.5;
-    if (sign(first) < 0 && before > 0) return smallest > firm * error ? Trend::valley : Trend::unknown;
+    if (sign(first) < 0 && before > 0) return smallest > firm * error ? Trend::minimum : Trend::unknown;
     if (sign(first) > 0 && before < 0 && ((changes == 1 && certain) || largest < -2.5 * error))
-      return Trend::peak;
+      return Trend::maximum;
     return Trend::unknown;
   }
 };
 
 /// The root of an ascending slope: where, and a bound on how much the squared distance there exceeds its
 /// least when s is rounded to a multiple of `grain`, in the sub-piece's unit.
+///
+/// Over the stretch, of width w in that unit and n = 2 P, dD = n w G(s) ds and D'' lies between n (n - 1) w
+/// times the smallest and the largest difference of the G. With g = |G(s)| + error the excess is at most n w
+/// min(g, g^2 / (2 (n - 1) smallest)), as in lower_bound(); a rounding of grain / w adds at most half of D''
+/// times its square, n^2 largest grain^2 / w.
 struct Valley {
   double s, excess;
 };

@@ -39,18 +39,19 @@ std::shared_ptr<const CurveProjector::Data> prepare(const BSpline& curve) {
   }
 }
 
-/// What a side of a joint says: lambda there, and the cosine between the offset and the way out.
+/// What a side of a joint says: lambda there, and the cosine between the offset and the outward tangent
+/// (sign: 1 on the right, -1 on the left).
 struct Side {
   double lambda, cosine;
 };
 
-Side side(const BSpline& curve, double t, int span, const Vec3& offset, double way) {
+Side side(const BSpline& curve, double t, int span, const Vec3& offset, double sign) {
   const Basis basis = curve.knots().basis_in_span(t, span, 2);
   const Vec3 d1 = combine(basis, curve.degree(), curve.control_points(), 1);
   const double speed = d1.norm(), distance = offset.norm();
   if (!(speed > 0.0)) return {0.0, 0.0};
   const Vec3 d2 = combine(basis, curve.degree(), curve.control_points(), 2);
-  const double cosine = distance > 0.0 ? way * offset.dot(d1) / (speed * distance) : 0.0;
+  const double cosine = distance > 0.0 ? sign * offset.dot(d1) / (speed * distance) : 0.0;
   return {std::max(0.0, 1.0 + offset.dot(d2) / (speed * speed)), std::clamp(cosine, 0.0, 1.0)};
 }
 
@@ -71,7 +72,8 @@ double strength(const BSpline& curve, const Projection& at, const Vec3& p) {
 }
 
 /// The minimum that the nearest point is, or the end of the list.
-std::size_t same_place(const std::vector<search::Minimum>& minima, const Projection& nearest, double slack) {
+std::size_t same_minimum(const std::vector<search::Minimum>& minima, const Projection& nearest,
+                         double slack) {
   std::size_t best = minima.size();
   for (std::size_t i = 0; i < minima.size(); ++i)
     if (minima[i].distance <= nearest.distance + slack &&
@@ -87,10 +89,10 @@ std::vector<LocalMinimum> list(const CurveProjector::Data& data, const Vec3& p, 
   const double cut =
       std::min(std::numeric_limits<double>::max(), (1.0 + band) * nearest.distance + bounds.slack);
   const std::vector<search::Minimum> minima = data.sweep(p, std::min(cut, 1e153), bounds.blur);
-  const std::size_t first = same_place(minima, nearest, bounds.slack);
+  const std::size_t first = same_minimum(minima, nearest, bounds.slack);
   const bool known = first < minima.size();
   const double domain = data.curve.knots().end() - data.curve.knots().start();
-  // Where the distance is flat to rounding the sweep places its minimum better.
+  // Where the distance is flat to rounding the sweep locates its minimum better.
   const bool same = !known || std::abs(minima[first].t - nearest.t) <= 1e-7 * domain;
   const Projection front =
       same ? nearest : describe(data, p, {minima[first].t, minima[first].distance - minima[first].gap});

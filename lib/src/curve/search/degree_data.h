@@ -34,7 +34,7 @@ void divide(const search::Piece<P>& piece, int times, std::vector<search::Piece<
   divide<P>({absolute<P>(right.points), middle, piece.end}, times - 1, out);
 }
 
-/// How often to halve: more parts are settled at once, and are more to choose from. By the mean over the
+/// How often to halve: more parts are resolved at once, and are more to choose from. By the mean over the
 /// spans of how far the control points lie from the chord, in chords.
 inline int halvings(const std::vector<BezierPiece>& pieces) {
   double bend = 0.0;
@@ -106,21 +106,21 @@ struct DataOfDegree final : CurveProjector::Data {
     tree.descend(
         p, [&] { return cut; }, [&](std::size_t piece) { near.push_back(piece); });
     std::sort(near.begin(), near.end());
-    search::Ridge ridge(curve, p, cut, blur);
-    search::Sweep<P> examiner(p, cut, blur, ridge);
+    search::MinimaRecorder recorder(curve, p, cut, blur);
+    search::Sweep<P> examiner(p, cut, blur, recorder);
     const std::size_t parts = pieces.size() / fine.size();
     std::size_t expected = 0;
     for (const std::size_t i : near) {
-      if (i != expected) ridge.far(pieces[i].begin);
+      if (i != expected) recorder.beyond_band(pieces[i].begin);
       examiner.examine(pieces[i], fine[i / parts], static_cast<int>(i % parts), static_cast<int>(parts));
       expected = i + 1;
     }
     if (expected == pieces.size()) {
-      ridge.trend(1, curve.knots().end());
+      recorder.trend(1, curve.knots().end());
     } else {
-      ridge.far(curve.knots().end());
+      recorder.beyond_band(curve.knots().end());
     }
-    return ridge.take_all();
+    return recorder.take_all();
   }
 
   std::vector<search::Piece<P>> pieces;

@@ -31,7 +31,9 @@ TENDRIL_LANES void mark_near(const GroupLanes& group, double radius, const doubl
 TENDRIL_LANES void measure_balls(Balls& balls, const V3& c) {
   const std::size_t count = balls.size();
   balls.distance.resize(count);
-  const double* __restrict x = balls.x.data(), * __restrict y = balls.y.data(), * __restrict z = balls.z.data();
+  const double* __restrict x = balls.x.data();
+  const double* __restrict y = balls.y.data();
+  const double* __restrict z = balls.z.data();
   double* __restrict distance = balls.distance.data();
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) distance[i] = norm(V3{x[i], y[i], z[i]} - c);

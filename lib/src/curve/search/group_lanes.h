@@ -6,7 +6,7 @@
 #include "curve/distance/capsule_tree.h"
 #include "projection_lanes.h"
 
-/// Which pieces a group of points must look at: bounds in vector lanes, over the points or over the pieces.
+/// Which pieces a group of points must examine: bounds in vector lanes, over the points or over the pieces.
 namespace tendril::search {
 
 /// A piece that may be the nearest, and its capsule on plain numbers.
@@ -22,7 +22,8 @@ struct alignas(64) GroupLanes {
   Lanes square, radius, nearest;
 };
 
-/// Squared distance of every point to the segment of a piece. \param number  of the piece among those met
+/// Squared distance of every point to the segment of a piece.
+/// \param number  of the piece among those met
 void measure_piece(GroupLanes& group, const NearPiece& piece, double number, double* square);
 
 /// Marks the points that the capsule is not too far from.

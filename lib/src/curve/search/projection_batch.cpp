@@ -24,9 +24,9 @@ struct Best {
   double cut = kNone, least = kNone;
   double t = kNone, local = kNone;
   std::size_t piece = 0;
-  bool open = false;  ///< the lanes do not settle it
+  bool open = false;  ///< the lanes do not resolve it
 
-  bool settled() const { return !open && t < kNone; }
+  bool resolved() const { return !open && t < kNone; }
   void lower(double upper) { cut = std::min(cut, upper + slack); }
   /// Of candidates within the cut there must be one.
   void candidate(double at, double distance, std::size_t of) {
@@ -50,7 +50,7 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
         spans_(data.curve.knots().nonempty_spans()),
         parts_(pieces.size() / spans_.size()) {}
 
-  /// Group by group, after one way down the tree for all.
+  /// Group by group, after one descent of the tree for all.
   void find(Points points, std::span<const std::uint32_t> which, std::span<Found> found) override {
     const Eigen::AlignedBox3d whole = box_of(points, which);
     const bool all = which.size() > kLanes && gather(whole, bounds_of(whole).slack);
@@ -62,10 +62,10 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
       const bool fits = all || gather(box, bounds.slack);
       if (fits) {
         select(box, bounds.slack);
-        settle(group_of.size());
+        resolve(group_of.size());
       }
       for (std::size_t i = 0; i < group_of.size(); ++i)
-        found[group_of[i]] = fits && best_[i].settled()
+        found[group_of[i]] = fits && best_[i].resolved()
                                  ? Found{best_[i].t, best_[i].least, spans_[best_[i].piece / parts_]}
                                  : alone(i);
     }
@@ -126,7 +126,7 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
     if (waiting_ == 0) return;
     const std::size_t count = waiting_;
     waiting_ = 0;
-    search::settle<P>(items_, (count + 7) / 8 * 8);
+    search::resolve<P>(items_, (count + 7) / 8 * 8);
     for (std::size_t i = 0; i < count; ++i) take(best_[lane_of_[i]], piece_of_[i], i);
   }
 
@@ -141,7 +141,7 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
     to.candidate(pieces_[piece].parameter(items_.s[i]), items_.distance[i], piece);
   }
 
-  /// Whether the search of one point would settle the root.
+  /// Whether the search of one point would resolve the root.
   bool proven(std::size_t i) const {
     const double gap = items_.distance[i] - items_.least[i];
     return items_.fate[i] != search::fate::root || gap <= data_.bounds_for(data_.diagonal).proof ||
@@ -177,7 +177,7 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
     return data_.find(point(lane), data_.bounds(point(lane)), t < kNone ? t : kNaN);
   }
 
-  void settle(std::size_t count) {
+  void resolve(std::size_t count) {
     squares_.resize(kLanes * near_.size());
     for (std::size_t k = 0; k < near_.size(); ++k)
       search::measure_piece(group_, near_[k], static_cast<double>(k), squares_.data() + kLanes * k);

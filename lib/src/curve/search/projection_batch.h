@@ -10,10 +10,10 @@ namespace tendril {
 
 /// The search for the nearest points of many points at once.
 ///
-/// Points that lie together are taken together, search::kLanes of them. One way down the tree finds the
+/// Points that lie together are taken together, search::kLanes of them. One descent of the tree finds the
 /// pieces that may be nearest to any of them; every point is measured against the capsules of these, the
-/// piece of the nearest capsule is settled, and then those that the distance found does not exclude: all of
-/// this in vector lanes, and by the arithmetic of the search of one point. What lanes do not settle (a piece
+/// piece of the nearest capsule is resolved, and then those that the distance found does not exclude: all of
+/// this in vector lanes, and by the arithmetic of the search of one point. What lanes do not resolve (a piece
 /// that must be halved, a tie, pieces too many) goes to that search. The outcome is the same, for it does not
 /// depend on the bound a search starts from.
 ///

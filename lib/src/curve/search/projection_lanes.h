@@ -6,7 +6,7 @@
 #include "curve/distance/bezier_distance.h"
 
 /// Searches of many points side by side: the arithmetic of distance_search.h and of BSpline, a row of lanes
-/// for each number. What a lane cannot settle it says, and the search of one point does.
+/// for each number. What a lane cannot resolve it says, and the search of one point does.
 namespace tendril::search {
 
 inline constexpr std::size_t kLanes = 32;
@@ -42,7 +42,7 @@ TENDRIL_INLINE Control<P> control(const PieceLanes<P>& lanes, std::size_t i) {
   return r;
 }
 
-/// First half of a settlement: fates, ends, and where to look for roots.
+/// First half of a resolution: fates, ends, and where to look for roots.
 template <int P>
 TENDRIL_LANES void measure(PieceLanes<P>& lanes, std::size_t count) {
   TENDRIL_LOOP
@@ -109,7 +109,7 @@ TENDRIL_LANES void take_roots(PieceLanes<P>& lanes, std::size_t count) {
 }
 
 template <int P>
-void settle(PieceLanes<P>& lanes, std::size_t count) {
+void resolve(PieceLanes<P>& lanes, std::size_t count) {
   constexpr int kSteps = 4;  // nearly all roots take one or two
   measure<P>(lanes, count);
   for (int k = 0; k < kSteps; ++k)
