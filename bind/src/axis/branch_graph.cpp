@@ -21,45 +21,45 @@ Line joined(Line first, const Line& second) {
   return first;
 }
 
-/// The branch as seen from one of its places.
-Line from_place(const Branch& branch, std::uint32_t place) {
-  return branch.from == place ? branch.line : reversed(branch.line);
+/// The branch as seen from one of its vertices.
+Line from_vertex(const Branch& branch, std::uint32_t vertex) {
+  return branch.from == vertex ? branch.line : reversed(branch.line);
 }
 
-/// Walks from a place over nodes with two neighbours to the next place.
+/// Walks from a vertex over nodes with two neighbours to the next vertex.
 class Walker {
  public:
   explicit Walker(const Skeleton& skeleton) : skeleton_(skeleton), at_(skeleton.points.size()) {
     for (std::uint32_t e = 0; e < skeleton.edges.size(); ++e)
       for (const std::uint32_t node : skeleton.edges[e]) at_[node].push_back(e);
     walked_.resize(skeleton.edges.size(), false);
-    place_.resize(skeleton.points.size(), kNone);
+    vertex_.resize(skeleton.points.size(), kNone);
   }
 
   BranchGraph run() {
     for (std::uint32_t node = 0; node < at_.size(); ++node)
-      if (at_[node].size() != 2) settle(node);
-    if (graph_.places.empty() && !at_.empty()) settle(0);
+      if (at_[node].size() != 2) add_vertex(node);
+    if (graph_.vertices.empty() && !at_.empty()) add_vertex(0);
     for (std::uint32_t node = 0; node < at_.size(); ++node)
-      if (place_[node] != kNone)
+      if (vertex_[node] != kNone)
         for (const std::uint32_t edge : at_[node])
           if (!walked_[edge]) walk(node, edge);
     return std::move(graph_);
   }
 
  private:
-  void settle(std::uint32_t node) {
-    place_[node] = static_cast<std::uint32_t>(graph_.places.size());
-    graph_.places.push_back(skeleton_.points[node]);
+  void add_vertex(std::uint32_t node) {
+    vertex_[node] = static_cast<std::uint32_t>(graph_.vertices.size());
+    graph_.vertices.push_back(skeleton_.points[node]);
   }
   void walk(std::uint32_t start, std::uint32_t edge) {
-    Branch branch{place_[start], kNone, {skeleton_.points[start]}};
+    Branch branch{vertex_[start], kNone, {skeleton_.points[start]}};
     for (std::uint32_t node = start; branch.to == kNone;) {
       walked_[edge] = true;
       const auto& ends = skeleton_.edges[edge];
       node = ends[0] == node ? ends[1] : ends[0];
       branch.line.push_back(skeleton_.points[node]);
-      branch.to = place_[node];
+      branch.to = vertex_[node];
       if (branch.to == kNone) edge = at_[node][0] == edge ? at_[node][1] : at_[node][0];
     }
     graph_.branches.push_back(std::move(branch));
@@ -68,25 +68,25 @@ class Walker {
   const Skeleton& skeleton_;
   std::vector<std::vector<std::uint32_t>> at_;
   std::vector<bool> walked_;
-  std::vector<std::uint32_t> place_;
+  std::vector<std::uint32_t> vertex_;
   BranchGraph graph_;
 };
 
-std::vector<std::size_t> branches_at(const BranchGraph& graph, std::uint32_t place) {
+std::vector<std::size_t> branches_at(const BranchGraph& graph, std::uint32_t vertex) {
   std::vector<std::size_t> out;
   for (std::size_t b = 0; b < graph.branches.size(); ++b)
-    if (graph.branches[b].from == place || graph.branches[b].to == place) out.push_back(b);
+    if (graph.branches[b].from == vertex || graph.branches[b].to == vertex) out.push_back(b);
   return out;
 }
 
 /// Where two different branches meet and no other, they become one.
-void smooth_over(BranchGraph& graph, std::uint32_t place) {
-  const std::vector<std::size_t> at = branches_at(graph, place);
-  if (graph.degrees()[place] != 2 || at.size() != 2) return;
+void smooth_over(BranchGraph& graph, std::uint32_t vertex) {
+  const std::vector<std::size_t> at = branches_at(graph, vertex);
+  if (graph.degrees()[vertex] != 2 || at.size() != 2) return;
   const Branch& a = graph.branches[at[0]];
   const Branch& b = graph.branches[at[1]];
-  Branch one{a.from == place ? a.to : a.from, b.from == place ? b.to : b.from,
-             joined(reversed(from_place(a, place)), from_place(b, place))};
+  Branch one{a.from == vertex ? a.to : a.from, b.from == vertex ? b.to : b.from,
+             joined(reversed(from_vertex(a, vertex)), from_vertex(b, vertex))};
   graph.branches[at[0]] = std::move(one);
   graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(at[1]));
 }
@@ -106,7 +106,7 @@ std::vector<Leaf> leaves_of(const BranchGraph& graph, const Clearance& clearance
     const bool free_from = degree[branch.from] == 1, free_to = degree[branch.to] == 1;
     const std::uint32_t root = free_from ? branch.to : branch.from;
     if (free_from == free_to || degree[root] < 3) continue;
-    const Line line = from_place(branch, root);
+    const Line line = from_vertex(branch, root);
     double farthest = 0.0;
     for (const Vec3& p : line) farthest = std::max(farthest, (p - line.front()).norm() + clearance(p));
     const double reach = farthest / clearance(line.front());
@@ -130,7 +130,7 @@ std::vector<Leaf> least_leaves(const BranchGraph& graph, const Clearance& cleara
   return {least, fork[0]};
 }
 
-/// The two halves of a line about the place `length` along it, which both hold.
+/// The two halves of a line about the point `length` along it, which both hold.
 std::array<Line, 2> cut_at(const Line& line, double length) {
   std::size_t k = 1;
   for (double step = 0.0; k + 1 < line.size(); ++k, length -= step) {
@@ -160,20 +160,20 @@ std::size_t blunt(const Line& line, const Clearance& clearance) {
 }
 
 struct Reached {
-  std::vector<double> distance;      ///< of the places from the start, along branches
+  std::vector<double> distance;      ///< of the vertices from the start, along branches
   std::vector<std::size_t> through;  ///< branch that each was reached by, or none
 };
 
-/// Shortest ways from a place to all others. A place a round: there are few.
-Reached shortest_ways(const BranchGraph& graph, std::uint32_t start) {
+/// Shortest paths from a vertex to all others. A vertex a round: there are few.
+Reached shortest_paths(const BranchGraph& graph, std::uint32_t start) {
   const double far = std::numeric_limits<double>::infinity();
-  Reached out{std::vector<double>(graph.places.size(), far),
-              std::vector<std::size_t>(graph.places.size(), graph.branches.size())};
-  std::vector<bool> done(graph.places.size(), false);
+  Reached out{std::vector<double>(graph.vertices.size(), far),
+              std::vector<std::size_t>(graph.vertices.size(), graph.branches.size())};
+  std::vector<bool> done(graph.vertices.size(), false);
   out.distance[start] = 0.0;
   for (;;) {
     std::uint32_t next = kNone;
-    for (std::uint32_t p = 0; p < graph.places.size(); ++p)
+    for (std::uint32_t p = 0; p < graph.vertices.size(); ++p)
       if (!done[p] && out.distance[p] < far && (next == kNone || out.distance[p] < out.distance[next]))
         next = p;
     if (next == kNone) return out;
@@ -199,7 +199,7 @@ double length_of(const Line& line) {
 }
 
 std::vector<int> BranchGraph::degrees() const {
-  std::vector<int> out(places.size(), 0);
+  std::vector<int> out(vertices.size(), 0);
   for (const Branch& branch : branches) {
     ++out[branch.from];
     ++out[branch.to];
@@ -235,7 +235,7 @@ void merge_junctions(BranchGraph& graph, const Clearance& clearance) {
   for (std::size_t b = 0; b < graph.branches.size();) {
     const Branch bridge = graph.branches[b];
     const std::vector<int> degree = graph.degrees();
-    const double from = clearance(graph.places[bridge.from]), to = clearance(graph.places[bridge.to]);
+    const double from = clearance(graph.vertices[bridge.from]), to = clearance(graph.vertices[bridge.to]);
     if (bridge.from == bridge.to || degree[bridge.from] < 3 || degree[bridge.to] < 3 ||
         length_of(bridge.line) > 0.5 * std::max(from, to)) {
       ++b;
@@ -245,8 +245,8 @@ void merge_junctions(BranchGraph& graph, const Clearance& clearance) {
     const std::uint32_t gone = kept == bridge.from ? bridge.to : bridge.from;
     graph.branches.erase(graph.branches.begin() + static_cast<std::ptrdiff_t>(b));
     for (Branch& other : graph.branches) {
-      if (other.from == gone) other = {kept, other.to, joined(from_place(bridge, kept), other.line)};
-      if (other.to == gone) other = {other.from, kept, joined(other.line, from_place(bridge, gone))};
+      if (other.from == gone) other = {kept, other.to, joined(from_vertex(bridge, kept), other.line)};
+      if (other.to == gone) other = {other.from, kept, joined(other.line, from_vertex(bridge, gone))};
     }
     b = 0;
   }
@@ -257,10 +257,10 @@ void trim_ends(BranchGraph& graph, const Clearance& clearance) {
   for (Branch& branch : graph.branches)
     for (const std::uint32_t end : {branch.from, branch.to}) {
       if (degree[end] != 1) continue;
-      Line line = from_place(branch, end);
+      Line line = from_vertex(branch, end);
       const std::size_t cut = blunt(line, clearance);
       line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(cut));
-      graph.places[end] = line.front();
+      graph.vertices[end] = line.front();
       branch.line = branch.from == end ? std::move(line) : reversed(std::move(line));
     }
 }
@@ -270,13 +270,13 @@ std::vector<Vec3> cut_loops(BranchGraph& graph, const Clearance& clearance) {
   const std::vector<int> degree = graph.degrees();
   std::uint32_t start = kNone;
   double widest = -1.0;
-  for (std::uint32_t p = 0; p < graph.places.size(); ++p) {
-    if (degree[p] == 0 || !(clearance(graph.places[p]) > widest)) continue;
+  for (std::uint32_t p = 0; p < graph.vertices.size(); ++p) {
+    if (degree[p] == 0 || !(clearance(graph.vertices[p]) > widest)) continue;
     start = p;
-    widest = clearance(graph.places[p]);
+    widest = clearance(graph.vertices[p]);
   }
   if (start == kNone) return cuts;
-  const Reached reached = shortest_ways(graph, start);
+  const Reached reached = shortest_paths(graph, start);
   const std::size_t count = graph.branches.size();
   for (std::size_t b = 0; b < count; ++b) {
     const Branch branch = graph.branches[b];
@@ -285,12 +285,12 @@ std::vector<Vec3> cut_loops(BranchGraph& graph, const Clearance& clearance) {
         0.5 * (length_of(branch.line) + reached.distance[branch.to] - reached.distance[branch.from]);
     auto [first, second] = cut_at(branch.line, along);
     cuts.push_back(first.back());
-    const auto place = static_cast<std::uint32_t>(graph.places.size());
-    graph.places.insert(graph.places.end(), 2, cuts.back());
-    graph.branches[b] = {branch.from, place, std::move(first)};
-    graph.branches.push_back({place + 1, branch.to, std::move(second)});
+    const auto vertex = static_cast<std::uint32_t>(graph.vertices.size());
+    graph.vertices.insert(graph.vertices.end(), 2, cuts.back());
+    graph.branches[b] = {branch.from, vertex, std::move(first)};
+    graph.branches.push_back({vertex + 1, branch.to, std::move(second)});
   }
-  for (std::uint32_t p = 0; p < graph.places.size(); ++p) smooth_over(graph, p);
+  for (std::uint32_t p = 0; p < graph.vertices.size(); ++p) smooth_over(graph, p);
   return cuts;
 }
 

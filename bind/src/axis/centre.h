@@ -10,8 +10,8 @@ namespace tendril::axis {
 /// skeleton to the inner side of bends, and out of thin limbs. The first point stays.
 ///
 /// Half way is meant of a limb about as thick as the line's clearance nearby, so that where a leg's axis runs
-/// beneath a flank it is not drawn to the middle of the body. \param line  evenly spaced, in a mesh of about
-/// unit size
+/// beneath a flank it is not drawn to the middle of the body.
+/// \param line  evenly spaced, in a mesh of about unit size
 Line centred(const Line& line, const Surface& surface);
 
 /// Half the width of the limb at each point: its clearance, or half the largest nearby where that is more, as

@@ -58,10 +58,10 @@ class Fitter {
   }
 
  private:
-  /// The parent's node at the place where the path leaves it.
+  /// The parent's node at the vertex where the path leaves it.
   AxisJoint joint_of(const Path& path, const Path& parent) const {
-    const auto at = std::find(parent.places.begin(), parent.places.end(), path.places.front());
-    return {*path.parent, nodes_[*path.parent][static_cast<std::size_t>(at - parent.places.begin())]};
+    const auto at = std::find(parent.vertices.begin(), parent.vertices.end(), path.vertices.front());
+    return {*path.parent, nodes_[*path.parent][static_cast<std::size_t>(at - parent.vertices.begin())]};
   }
 
   AxisCurve fit_within(const Path& path) {
@@ -78,7 +78,7 @@ class Fitter {
       measure(curve, samples, width);
       if (best && std::tie(curve.outside, curve.strays) >= std::tie(best->outside, best->strays)) continue;
       best = std::move(curve);
-      nodes_.back() = spread.node_of_place;
+      nodes_.back() = spread.node_of_vertex;
     }
     return *best;
   }
@@ -127,24 +127,24 @@ class Fitter {
   const AxisOptions& options_;
   double spacing_;
   std::vector<AxisCurve> curves_;
-  std::vector<std::vector<std::size_t>> nodes_;  ///< of the places of each path
+  std::vector<std::vector<std::size_t>> nodes_;  ///< of the vertices of each path
 };
 
 /// Back to where the mesh was.
-void put_back(const Placement& placement, AxisTree& tree) {
-  const auto move = [&](Vec3& p) { p = placement.back(p); };
+void put_back(const UnitScaling& scaling, AxisTree& tree) {
+  const auto move = [&](Vec3& p) { p = scaling.back(p); };
   for (AxisCurve& curve : tree.curves) {
     std::for_each(curve.points.begin(), curve.points.end(), move);
     std::for_each(curve.orientation.begin(), curve.orientation.end(), move);
-    for (double& r : curve.radius) r *= placement.scale;
-    curve.length *= placement.scale;
+    for (double& r : curve.radius) r *= scaling.scale;
+    curve.length *= scaling.scale;
   }
   for (AxisCurve& curve : tree.curves)
     if (curve.joint) curve.points[0] = tree.curves[curve.joint->parent].points[curve.joint->node];
   for (Twig& twig : tree.report.twigs) {
     move(twig.root);
     move(twig.tip);
-    twig.length *= placement.scale;
+    twig.length *= scaling.scale;
   }
   std::for_each(tree.report.cuts.begin(), tree.report.cuts.end(), move);
 }
@@ -183,9 +183,9 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
   std::vector<Path> paths = paths_of(graph);
   if (paths.empty()) return tree;
   const double longest = paths.front().along.back();
-  const double spacing = options.spacing ? *options.spacing / prepared.placement.scale : longest / 40.0;
+  const double spacing = options.spacing ? *options.spacing / prepared.scaling.scale : longest / 40.0;
   tree.curves = Fitter(surface, options, spacing).run(std::move(paths));
-  put_back(prepared.placement, tree);
+  put_back(prepared.scaling, tree);
   return tree;
 }
 

@@ -73,7 +73,8 @@ void drop_isolated_points(Soup& soup) {
     for (std::uint32_t& i : face) i = number[i];
 }
 
-/// Leaves the faces joined by points that have the largest area together. \return  number of other parts
+/// Leaves the faces joined by points that have the largest area together.
+/// \return  number of other parts
 std::size_t keep_largest_part(Soup& soup) {
   Sets parts(soup.points.size());
   for (const auto& [a, b, c] : soup.faces) {
@@ -110,7 +111,8 @@ const DirectedEdge* find(const std::vector<DirectedEdge>& edges, std::uint32_t f
   return found != edges.end() && found->from == from && found->to == to ? &*found : nullptr;
 }
 
-/// A point for each fan of faces joined by edges. \return  number of points that had several
+/// A point for each fan of faces joined by edges.
+/// \return  number of points that had several
 std::size_t split_points(Soup& soup) {
   const std::vector<DirectedEdge> edges = directed_edges(soup);
   Sets fans(3 * soup.faces.size());
@@ -137,7 +139,8 @@ std::size_t split_points(Soup& soup) {
   return static_cast<std::size_t>(std::count(split.begin(), split.end(), true));
 }
 
-/// A fan about the middle of each loop of edges used once. \return  number of loops
+/// A fan about the middle of each loop of edges used once.
+/// \return  number of loops
 std::size_t close_holes(Soup& soup) {
   const std::vector<DirectedEdge> edges = directed_edges(soup);
   std::map<std::uint32_t, std::uint32_t> open;  // edges that the missing faces would have
@@ -202,7 +205,7 @@ void split_in_four(Soup& soup) {
   soup.faces = std::move(faces);
 }
 
-Placement placement_of(Points points) {
+UnitScaling scaling_of(Points points) {
   Vec3 low = points[0], high = points[0];
   for (const Vec3& p : points) {
     low = low.cwiseMin(p);
@@ -227,9 +230,9 @@ Prepared prepare(const PolygonMesh& mesh, const AxisOptions& options, AxisReport
   }
   require_fit(to_mesh(soup));
   for (; soup.points.size() < options.least_points; ++report.splits) split_in_four(soup);
-  const Placement placement = placement_of(soup.points);
-  for (Vec3& p : soup.points) p = (p - placement.centre) / placement.scale;
-  return {to_mesh(std::move(soup)), placement};
+  const UnitScaling scaling = scaling_of(soup.points);
+  for (Vec3& p : soup.points) p = (p - scaling.centre) / scaling.scale;
+  return {to_mesh(std::move(soup)), scaling};
 }
 
 }  // namespace tendril::axis

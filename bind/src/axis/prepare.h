@@ -6,8 +6,8 @@
 
 namespace tendril::axis {
 
-/// Where the copy is: p = centre + scale q, of about unit size about the origin.
-struct Placement {
+/// The map from the copy, of about unit size about the origin, back to the mesh: p = centre + scale q.
+struct UnitScaling {
   Vec3 centre = Vec3::Zero();
   double scale = 1.0;  ///< a power of two
 
@@ -16,7 +16,7 @@ struct Placement {
 
 struct Prepared {
   bind::PolygonMesh mesh;
-  Placement placement;
+  UnitScaling scaling;
 };
 
 /// A copy that CGAL can be given: one closed, manifold, oriented surface of triangles with some area, of at

@@ -12,20 +12,20 @@
 namespace tendril::axis {
 namespace {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 struct OutOfTime {};
 
-/// Looked at from within CGAL's loops, some of which have no bound of their own.
+/// Checked from within CGAL's loops, some of which have no bound of their own.
 class Watch {
  public:
   explicit Watch(double seconds)
       : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
-  void look() const {
+  void check() const {
     if (std::chrono::steady_clock::now() > end_) throw OutOfTime();
   }
   void count() const {
-    if (++calls_ % 4096 == 0) look();
+    if (++calls_ % 4096 == 0) check();
   }
 
  private:
@@ -33,15 +33,15 @@ class Watch {
   mutable unsigned calls_ = 0;
 };
 
-/// CGAL's kernel, whose distances look at the watch.
-struct Kernel : Exact {
+/// CGAL's kernel, whose distances check the time.
+struct Kernel : Epick {
   const Watch* watch = nullptr;
 
-  struct WatchedDistance : Exact::Compute_squared_distance_3 {
+  struct WatchedDistance : Epick::Compute_squared_distance_3 {
     const Watch* watch;
-    double operator()(const Exact::Point_3& a, const Exact::Point_3& b) const {
+    double operator()(const Epick::Point_3& a, const Epick::Point_3& b) const {
       if (watch != nullptr) watch->count();
-      return Exact::Compute_squared_distance_3::operator()(a, b);
+      return Epick::Compute_squared_distance_3::operator()(a, b);
     }
   };
   WatchedDistance compute_squared_distance_3_object() const { return {{}, watch}; }
@@ -71,7 +71,7 @@ namespace tendril::axis {
 namespace {
 
 double area(const Meso& meso) {
-  return CGAL::Polygon_mesh_processing::area(meso, CGAL::parameters::geom_traits(Exact()));
+  return CGAL::Polygon_mesh_processing::area(meso, CGAL::parameters::geom_traits(Epick()));
 }
 
 bool is_finite(const Meso& meso) {
@@ -80,18 +80,18 @@ bool is_finite(const Meso& meso) {
   });
 }
 
-/// As contract_until_convergence, with a watch and a look at the numbers.
+/// As contract_until_convergence, with the time limit and a check for numbers that are not finite.
 Contraction run(Flow& flow, const Watch& watch, int& steps) {
   const double whole = area(flow.meso_skeleton());
   double last = 0.0;
   for (steps = 1;; ++steps) {
     flow.contract_geometry();
     if (!is_finite(flow.meso_skeleton())) return Contraction::not_finite;
-    watch.look();
+    watch.check();
     flow.collapse_edges();
     flow.split_faces();
     flow.detect_degeneracies();
-    watch.look();
+    watch.check();
     const double now = area(flow.meso_skeleton());
     if (std::abs(now - last) < flow.area_variation_factor() * whole) return Contraction::converged;
     last = now;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-/// The door to CGAL's mean-curvature-flow skeletons (Tagliasacchi, Alhashim, Olson and Zhang 2012).
+/// The only use of CGAL's mean-curvature-flow skeletons [Tagliasacchi et al. 2012].
 namespace tendril::axis {
 
 /// A graph of points within a surface. Nodes are sorted by their coordinates, edges by their nodes.

@@ -7,7 +7,7 @@
 
 namespace tendril::axis {
 
-/// The door to CGAL's queries of a closed triangle mesh.
+/// The only use of CGAL's queries of a closed triangle mesh.
 class Surface {
  public:
   explicit Surface(const bind::PolygonMesh& mesh);

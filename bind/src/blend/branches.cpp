@@ -12,15 +12,15 @@
 namespace tendril::bind {
 namespace {
 
-/// By how much the scale of the binding falls over a way on the mesh. Less than 1, by which the distance to a
-/// curve can fall, so that where the mesh runs into its own axis the scale is that of the mesh around.
+/// By how much the scale of the binding may fall per length on the mesh. The distance to a curve can fall by
+/// 1, so near where the mesh meets its own axis the scale is bounded by that of the mesh around.
 constexpr double kScaleSlope = 0.5;
 constexpr double kSmallest = 1e-150;  ///< scale, so that its square is a number
 
 using CandidateLists = std::vector<std::vector<Candidate>>;
 
-/// Whether two projections of neighbours belong to one branch: from their middle, no hump of the distance
-/// lies between them.
+/// Whether two projections of neighbours belong to one branch: seen from the middle of the two, no maximum of
+/// the distance lies between them (which is sampled).
 bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle, const Candidate& a,
                  const Candidate& b) {
   if (a.pair != b.pair) return false;
@@ -33,8 +33,8 @@ bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle,
   return true;
 }
 
-/// Closes the projections of a point that no way over the mesh, through the same branch of projections, joins
-/// to a point where the branch is the nearest.
+/// Closes the projections of a point that no path on the mesh, through the same branch of projections, joins
+/// to a point where the branch is the nearest: a flood over (point, projection) from all nearest projections.
 class Gate {
  public:
   Gate(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, const Neighbours& neighbours,
@@ -97,12 +97,12 @@ class Search {
         facing_(projectors, mesh, neighbours_, threads),
         lists_(mesh.points.size()),
         scales_(mesh.points.size()),
-        lacks_(mesh.points.size()) {}
+        margins_(mesh.points.size()) {}
 
   Branches run() {
     find_nearest();
     find_scales();
-    find_lacks();
+    find_margins();
     Branches branches;
     if (std::any_of(lists_.begin(), lists_.end(), [](const auto& list) { return list.size() > 1; }))
       branches.gated = Gate(projectors_, mesh_, neighbours_, lists_).run();
@@ -121,7 +121,7 @@ class Search {
   std::vector<Candidate> candidates(const Site& site) const;
   void find_nearest();
   void find_scales();
-  void find_lacks();
+  void find_margins();
   void share(Branches& branches) const;
 
   std::span<const CurveProjector> projectors_;
@@ -132,7 +132,7 @@ class Search {
   Neighbours neighbours_;
   Facing facing_;
   CandidateLists lists_;  ///< per point, the nearest projection first; the others where they are asked for
-  std::vector<double> scales_, lacks_;  ///< per point, see Site and SoftAxis::lack
+  std::vector<double> scales_, margins_;  ///< per point, see Site and SoftAxis::cut_margin
 };
 
 Site Search::site(std::size_t point) const {
@@ -187,37 +187,38 @@ void Search::find_scales() {
   for (std::size_t i = 0; i < scales_.size(); ++i) scales_[i] = -lists_[i].front().distance();
   bound_growth(
       mesh_, neighbours_, [&](std::uint32_t i) -> double& { return scales_[i]; },
-      [](std::uint32_t, double way) { return kScaleSlope * way; });
+      [](std::uint32_t, double length) { return kScaleSlope * length; });
   for (std::size_t i = 0; i < scales_.size(); ++i)
     scales_[i] = std::max(kSmallest, -scales_[i] / lists_[i].front().factor);
 }
 
-/// Near a jump from one place to another close by, the lack rises over a way like that between the places:
-/// there the shares of the places around would change as fast. The lack of the points about is lowered to
-/// rise no faster than beside the middle between two strands.
-void Search::find_lacks() {
+/// Where the nearest point jumps to another one close by, the margin rises from 0 to 1 over a length
+/// comparable with the distance between the two, and the blend would change as fast. So the margins are
+/// lowered to grow along no edge by more than its length over band scale, as they do beside the bisector of
+/// two branches.
+void Search::find_margins() {
   in_parts([&](std::size_t i) {
-    lacks_[i] = 1.0;
+    margins_[i] = 1.0;
     Site here = site(i);
     if (!axis_.may_be_ambiguous(here)) return;
     lists_[i] = candidates(here);
     here.all = lists_[i];
-    lacks_[i] = std::min(1.0, axis_.lack(here));
+    margins_[i] = std::min(1.0, axis_.cut_margin(here));
   });
   bound_growth(
-      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return lacks_[i]; },
-      [&](std::uint32_t i, double way) { return way / (band_ * scales_[i]); });
+      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return margins_[i]; },
+      [&](std::uint32_t i, double length) { return length / (band_ * scales_[i]); });
   in_parts([&](std::size_t i) {
-    if (lacks_[i] < 1.0 && lists_[i].size() == 1) lists_[i] = candidates(site(i));
+    if (margins_[i] < 1.0 && lists_[i].size() == 1) lists_[i] = candidates(site(i));
   });
 }
 
 void Search::share(Branches& branches) const {
   branches.influences.resize(lists_.size());
   in_parts([&](std::size_t i) {
-    const double share = SoftAxis::share(lacks_[i]);
-    if (share > 0.0) branches.influences[i] = axis_.influences(site(i));
-    for (Influence& one : branches.influences[i]) one.weight *= share;
+    const double weight = SoftAxis::blend_weight(margins_[i]);
+    if (weight > 0.0) branches.influences[i] = axis_.influences(site(i));
+    for (Influence& one : branches.influences[i]) one.weight *= weight;
   });
   for (std::uint32_t i = 0; i < lists_.size(); ++i) {
     if (!branches.influences[i].empty()) branches.ambiguous.push_back(i);

@@ -17,7 +17,7 @@ struct Candidate {
   double distance() const { return factor * at.distance; }
 };
 
-/// A place of an axis that a point is bound to.
+/// A node of an axis that a point is bound to.
 struct Influence {
   std::uint32_t pair;
   double t, weight;

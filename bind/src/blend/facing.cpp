@@ -9,8 +9,8 @@ namespace tendril::bind {
 namespace {
 
 constexpr double kMost = 2.302585092994046;    ///< log 10
-constexpr double kSlope = 1.0;                 ///< of the logarithm, over way by distance
-constexpr double kAcross = 0.3, kFull = -0.1;  ///< cosines from which, and at which, it counts
+constexpr double kSlope = 1.0;                 ///< of the logarithm, by length over distance
+constexpr double kAcross = 0.3, kFull = -0.1;  ///< cosines at which the factor begins to grow, and is full
 constexpr double kClear = 0.2;                 ///< share of the surface that must agree on a side
 
 /// Sums of the neighbouring faces' normals, as long as the faces are large.
@@ -27,8 +27,8 @@ std::vector<Vec3> normals(const PolygonMesh& mesh) {
   return out;
 }
 
-/// Of the cosine between a normal and the way from the curve.
-double reluctance(double cosine) {
+/// Logarithm of the factor, by the cosine between the normal and the direction from the curve.
+double penalty(double cosine) {
   const double s = std::clamp((kAcross - cosine) / (kAcross - kFull), 0.0, 1.0);
   return kMost * s * s * (3.0 - 2.0 * s);
 }
@@ -39,17 +39,17 @@ Facing::Facing(std::span<const CurveProjector> projectors, const PolygonMesh& me
                const Neighbours& neighbours, int threads)
     : pairs_(projectors.size()) {
   if (pairs_ < 2) return;
-  look(projectors, mesh, threads);
+  measure(projectors, mesh, threads);
   if (factor_.empty()) return;
   in_parts(pairs_, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) soften(static_cast<std::uint32_t>(k), mesh, neighbours);
+    for (std::size_t k = begin; k < end; ++k) bound_slope(static_cast<std::uint32_t>(k), mesh, neighbours);
   });
   for (float& f : factor_) f = std::exp(f);
   distance_ = {};
 }
 
 /// Distances and cosines, and which side is the outside.
-void Facing::look(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, int threads) {
+void Facing::measure(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, int threads) {
   const std::vector<Vec3> normal = normals(mesh);
   factor_.resize(mesh.points.size() * pairs_);
   distance_.resize(factor_.size());
@@ -79,15 +79,14 @@ void Facing::look(std::span<const CurveProjector> projectors, const PolygonMesh&
     distance_ = {};
     return;
   }
-  for (float& f : factor_)
-    f = static_cast<float>(reluctance(std::copysign(1.0, away) * static_cast<double>(f)));
+  for (float& f : factor_) f = static_cast<float>(penalty(std::copysign(1.0, away) * static_cast<double>(f)));
 }
 
-void Facing::soften(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours) {
+void Facing::bound_slope(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours) {
   bound_growth(
       mesh, neighbours, [&](std::uint32_t i) -> float& { return factor_[i * pairs_ + pair]; },
-      [&](std::uint32_t i, double way) {
-        return kSlope * way / std::max(1e-30, static_cast<double>(distance_[i * pairs_ + pair]));
+      [&](std::uint32_t i, double length) {
+        return kSlope * length / std::max(1e-30, static_cast<double>(distance_[i * pairs_ + pair]));
       });
 }
 

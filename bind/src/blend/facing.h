@@ -7,17 +7,19 @@
 /// Which curve-pairs a point may be inside of.
 namespace tendril::bind {
 
-/// Factors on the distances from the points of a mesh to several curves. A body's skin that an arm hangs
-/// beside is nearer to the arm's axis than to the body's own, but its faces look towards the arm's, not away
-/// from it as those of the arm do: there the distance to the arm counts for up to ten times as much.
+/// Factors, 1 to 10, on the distances from the points of a mesh to several curves. A body's skin that an arm
+/// hangs beside is nearer to the arm's axis than to the body's own, but it faces towards the arm's axis, not
+/// away from it as the skin of the arm does.
 ///
-/// 1 where the faces look away from the curve, as most of the mesh's do from the curves nearest to them, or
-/// across. The logarithm grows by at most 1 over a way along the edges as long as the distance to
-/// the curve, from wherever it is 0, so that folds of a limb do not count, and nothing jumps: in an armpit
-/// the skin passes gradually from one to the other.
+/// With a the cosine between the outward normal at a point and the direction from its nearest point on a
+/// curve to it, the factor is 1 for a >= 0.3, 10 for a <= -0.1, and log factor a smooth step in between. Then
+/// log factor is lowered so that along each edge it grows by at most the edge's length over the distance to
+/// the curve at its end. So the folds of a limb, a short path from skin that faces away, hardly count, and
+/// nothing jumps: in an armpit the factor changes gradually.
 class Facing {
  public:
-  /// All 1 when there is one curve, or when no side of the mesh is the outside (a sheet that the curves lie
+  /// All 1 when there is one curve, or when the mesh does not tell which of its sides is the outside: the
+  /// mean of a, over the nearest curves and weighted by area, is within 0.2 of 0 (a sheet that the curves lie
   /// in).
   Facing(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, const Neighbours& neighbours,
          int threads);
@@ -27,8 +29,10 @@ class Facing {
   }
 
  private:
-  void look(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, int threads);
-  void soften(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours);
+  /// Distances, and factors by the cosines; no factors where the outside is not known.
+  void measure(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, int threads);
+  /// Lowers the logarithms of one curve.
+  void bound_slope(std::uint32_t pair, const PolygonMesh& mesh, const Neighbours& neighbours);
 
   std::size_t pairs_;
   std::vector<float> factor_;    ///< per point and curve; while this is made, the logarithm

@@ -7,9 +7,9 @@
 namespace tendril::bind {
 namespace {
 
-constexpr int kNodesPerSpan = 2, kLooksPerSpan = 16;
-constexpr double kSamples = 12.0;  ///< on either side of a minimum on a straight line
-constexpr double kFaint = 1e-3;    ///< weight that fades to nothing
+constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 16;
+constexpr double kSamplesPerSide = 12.0;  ///< on either side of a minimum on a straight line
+constexpr double kFaint = 1e-3;           ///< weight that fades to nothing
 
 /// 1 up to `from`, 0 from `to` on, with a continuous derivative.
 double fall(double x, double from, double to) {
@@ -17,13 +17,13 @@ double fall(double x, double from, double to) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-/// Between which two of an ascending list t lies, and where.
-struct Place {
+/// Interval of an ascending list that holds t, and the share of it before t.
+struct Bracket {
   std::size_t right;
   double part;
 };
 
-Place place(const std::vector<double>& list, double t) {
+Bracket bracket(const std::vector<double>& list, double t) {
   const auto found = std::upper_bound(list.begin(), list.end(), t) - list.begin();
   const auto right = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(found, 1, static_cast<std::ptrdiff_t>(list.size()) - 1));
@@ -45,7 +45,7 @@ Vec3 tangent(const BSpline& curve, double t) {
   return speed > 0.0 ? Vec3(d1 / speed) : Vec3(Vec3::Zero());
 }
 
-/// Vector of the curvature; 0 where the curve stands still.
+/// Vector of the curvature; 0 where the speed is 0.
 Vec3 curvature(const BSpline& curve, double t) {
   const Vec3 along = tangent(curve, t), d2 = curve.derivative(t, 2);
   const double speed2 = curve.derivative(t).squaredNorm();
@@ -68,7 +68,7 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
     Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, {}, {}, 0.0};
-    const auto look = [&](double t) {
+    const auto sample = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
       one.spacing = std::max(one.spacing, step);
@@ -77,12 +77,13 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
       one.points.push_back(point);
       one.tangents.push_back(tangent(curve, t));
       one.curvatures.push_back(curvature(curve, t));
-      if (one.points.size() % (kLooksPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
+      if (one.points.size() % (kSamplesPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
     };
-    look(curve.knots().start());
+    sample(curve.knots().start());
     for (const BezierPiece& piece : curve.bezier_pieces())
-      for (int k = 1; k <= kLooksPerSpan; ++k)
-        look(k == kLooksPerSpan ? piece.end : piece.begin + (piece.end - piece.begin) * k / kLooksPerSpan);
+      for (int k = 1; k <= kSamplesPerSpan; ++k)
+        sample(k == kSamplesPerSpan ? piece.end
+                                    : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
     curves_.push_back(std::move(one));
   }
 }
@@ -98,7 +99,7 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t 
   const double nearest = site.nearest().at.distance, factor2 = site.factors[pair] * site.factors[pair];
   const double room = width(site) * (2.0 * nearest + width(site));
   const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
-  const double wanted = std::sqrt(room) / (kSamples * curve.speed);
+  const double wanted = std::sqrt(room) / (kSamplesPerSide * curve.speed);
   const double step = std::exp2(std::floor(std::log2(std::max(wanted, 1e-6 * (end - start)))));
   std::vector<Sample> out;
   const auto sample = [&](double index) {
@@ -122,14 +123,14 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t 
       if (out.back().excess >= 1.0) break;
     }
   }
-  raise_behind_humps(minima, out);
+  raise_behind_maxima(minima, out);
   return out;
 }
 
-/// Places behind a hump of the distance from every open minimum count as if they were as far as the hump:
-/// those of a closed minimum are let in by degrees, not at once when the hump sinks below the end of the
-/// weight.
-void SoftAxis::raise_behind_humps(std::span<const double> minima, std::vector<Sample>& along) {
+/// Samples separated from every open minimum by a maximum of the distance count as if they were as far as the
+/// maximum: those around a closed minimum get their weight gradually, not at once when the maximum falls
+/// below the reach.
+void SoftAxis::raise_behind_maxima(std::span<const double> minima, std::vector<Sample>& along) {
   std::vector<double> ahead(along.size());
   double most = std::numeric_limits<double>::infinity();
   auto next = minima.begin();
@@ -148,7 +149,7 @@ void SoftAxis::raise_behind_humps(std::span<const double> minima, std::vector<Sa
   }
 }
 
-void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight) {
+void SoftAxis::distribute(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight) {
   weight.assign(curve.nodes.size(), 0.0);
   for (std::size_t k = 0; k < along.size(); ++k) {
     if (along[k].excess >= 1.0) continue;
@@ -156,7 +157,7 @@ void SoftAxis::lay_down(const Curve& curve, std::span<const Sample> along, std::
     const Vec3& after = along[k + 1 < along.size() ? k + 1 : k].point;
     const double rest = 1.0 - std::max(0.0, along[k].excess);
     const double w = rest * rest * rest * (after - before).norm();
-    const Place at = place(curve.nodes, along[k].t);
+    const Bracket at = bracket(curve.nodes, along[k].t);
     weight[at.right - 1] += (1.0 - at.part) * w;
     weight[at.right] += at.part * w;
   }
@@ -167,7 +168,7 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
   std::vector<double> weight;
   double sum = 0.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
-    lay_down(curves_[pair], samples(site, pair), weight);
+    distribute(curves_[pair], samples(site, pair), weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
       if (weight[k] > 0.0) out.push_back({pair, curves_[pair].nodes[k], weight[k]});
@@ -176,7 +177,7 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
   return sum > 0.0 ? normalized(std::move(out), sum) : out;
 }
 
-/// Of the places from `first` to the next one: where the cosine changes its sign it is 0 in between.
+/// Where the cosine changes its sign between the two samples it is 0 in between.
 double SoftAxis::flatness(const Site& site, std::uint32_t pair, std::size_t first) const {
   const Curve& curve = curves_[pair];
   double away = std::numeric_limits<double>::infinity(), lambda = away, cosines[2];
@@ -208,30 +209,30 @@ double SoftAxis::flatness(const Site& site) const {
   return least;
 }
 
-double SoftAxis::lack(const Site& site) const {
+double SoftAxis::cut_margin(const Site& site) const {
   const Candidate& nearest = site.nearest();
   const double distance2 = (site.p - nearest.at.point).squaredNorm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
-  double lack = std::min(nearest.at.strength / band_, flatness(site));
-  const auto look = [&](std::uint32_t pair, double length, const Vec3& place) {
-    const double factor = site.factors[pair], apart2 = (place - nearest.at.point).squaredNorm();
-    // Too near to be told from the nearest itself, whose curvature has been looked at.
+  double margin = std::min(nearest.at.strength / band_, flatness(site));
+  const auto consider = [&](std::uint32_t pair, double length, const Vec3& point) {
+    const double factor = site.factors[pair], apart2 = (point - nearest.at.point).squaredNorm();
+    // Too near to the nearest point to differ from it: there the term tends to lambda, which is counted.
     if (!(apart2 > 1e-6 * distance2)) return;
-    const double apart = std::sqrt(apart2), strands = std::max(1.0, 2.0 * site.scale / apart);
-    const double excess = factor * factor * (place - site.p).squaredNorm() - distance2;
-    if (excess >= lack * band_ * strands * apart2) return;
-    const double round = pair == nearest.pair ? std::abs(length - here) / (2.0 * apart) : strands;
-    lack = std::min(lack, excess / (apart2 * band_ * std::clamp(round, 1.0, strands)));
+    const double apart = std::sqrt(apart2), branches = std::max(1.0, 2.0 * site.scale / apart);
+    const double excess = factor * factor * (point - site.p).squaredNorm() - distance2;
+    if (excess >= margin * band_ * branches * apart2) return;
+    const double round = pair == nearest.pair ? std::abs(length - here) / (2.0 * apart) : branches;
+    margin = std::min(margin, excess / (apart2 * band_ * std::clamp(round, 1.0, branches)));
   };
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
     for (std::size_t k = 0; k < curves_[pair].points.size(); ++k)
-      look(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
-  for (const Candidate& c : site.all.subspan(1)) look(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
-  return lack;
+      consider(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
+  for (const Candidate& c : site.all.subspan(1)) consider(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
+  return margin;
 }
 
-double SoftAxis::share(double lack) {
-  return fall(lack, 0.08, 1.0);
+double SoftAxis::blend_weight(double margin) {
+  return fall(margin, 0.08, 1.0);
 }
 
 bool SoftAxis::may_be_ambiguous(const Site& site) const {
@@ -243,23 +244,23 @@ bool SoftAxis::may_be_ambiguous(const Site& site) const {
     const Curve& curve = curves_[pair];
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
       double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - site.p).norm();
-      // Between samples another strand may come nearer; the nearest's own does not.
+      // Between samples another branch may come nearer; the branch of the nearest point does not.
       const bool own =
           pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
       if (!own) {
         apart += curve.spacing;
         away = std::max(distance, site.factors[pair] * (away - curve.spacing));
       }
-      const double strands = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
+      const double branches = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
       if (own && !(apart > 1e-3 * distance)) continue;
-      if ((away - distance) * (away + distance) < band_ * strands * apart * apart) return true;
+      if ((away - distance) * (away + distance) < band_ * branches * apart * apart) return true;
     }
   }
   return false;
 }
 
 double SoftAxis::Curve::length(double t) const {
-  const Place at = place(parameters, t);
+  const Bracket at = bracket(parameters, t);
   return lengths[at.right - 1] + at.part * (lengths[at.right] - lengths[at.right - 1]);
 }
 

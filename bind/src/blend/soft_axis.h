@@ -5,75 +5,94 @@
 /// How a point is bound where its nearest projection is not the only one that counts.
 namespace tendril::bind {
 
-/// A point of the mesh, and what is known about it.
+/// A point p of the mesh, and what is known about it.
 struct Site {
   const Vec3& p;
-  double scale;                    ///< at least the distance to the nearest place; widths are in units of it
+  double scale;                    ///< r of BindOptions::band: at least the distance to the nearest point
   std::vector<double> factors;     ///< those of Facing at p, one for each curve, over that of the nearest
   std::span<const Candidate> all;  ///< every projection that counts, or the nearest alone; the nearest first
 
   const Candidate& nearest() const { return all.front(); }
 };
 
-/// The places of the axes near a point, weighted by their closeness alone: with d the distance to the nearest
-/// and r = d + 2 band scale, a piece ds of a curve has the weight (1 - e)^3 ds, e = (|c(t) - p|^2 - d^2) /
-/// (r^2 - d^2), for e < 1. Nothing in it jumps when p moves, whether projections come, go, change places or
-/// merge; unlike a choice among projections it has no singular points either. The weights are laid down on
-/// fixed places of each curve, two a span, by linear interpolation in t.
+/// The part of the axes around a point p, weighted by distance alone, and how much of it is blended in.
 ///
-/// Distances to a curve count so many times as much as its factor says. `band` is that of BindOptions.
+/// Weights. With d the distance to the nearest point, `reach` = d + 2 band scale and
+///
+///   e(t) = (|c(t) - p|^2 - d^2) / (reach^2 - d^2),
+///
+/// a piece ds of a curve has the weight (1 - max(0, e))^3 ds where e < 1, and 0 elsewhere: the integrand and
+/// its first two derivatives vanish at e = 1, so the weights are smooth in p whether projections appear,
+/// vanish, merge or exchange their ranks. (A choice among projections, by whatever weights, is singular where
+/// two of them merge.) They are distributed to fixed nodes of each curve, two a span, by linear interpolation
+/// in t; a point is bound to these nodes.
+///
+/// Cut margin. Let c be the nearest point and n = (p - c) / |p - c|. A point q = c + s n of the ray through p
+/// has its nearest point at c as long as |q - c(t)|^2 >= s^2 for all t. With D = c(t) - c that reads
+/// |D|^2 - 2 s n . D >= 0, hence
+///
+///   s <= tau = min over t of |D|^2 / (2 n . D)   (n . D > 0),
+///
+/// the cut distance; for c(t) -> c the bound tends to |c'|^2 / (n . c''), the radius of curvature along n. So
+///
+///   1 - |p - c| / tau = min over t of (|c(t) - p|^2 - |c - p|^2) / |D|^2
+///
+/// is 0 on the cut locus and continuous where c is. It is compared with `band`. Two branches of the axis a
+/// small |D| apart meet at the bisecting plane of c and c(t), at the distance (|c(t) - p|^2 - |c - p|^2) /
+/// (2 |D|) of p: for those, recognised by an arc between them of many times |D|, or by belonging to different
+/// curves, that distance is compared with band scale instead, by dividing by 2 scale / |D| in addition.
+/// Before c jumps to a point close by on the same branch, the distance has a flat maximum between the two
+/// that neither term sees: see flatness().
+///
+/// Distances to a curve are multiplied by its factor throughout. `band` is that of BindOptions.
 class SoftAxis {
  public:
   SoftAxis(std::span<const CurveProjector> projectors, double band);
 
-  /// Projections that are not open are left out with their part of the curve.
+  /// The nodes with a weight, which sum to 1. Projections that are not open are left out with their part of
+  /// the curve.
   std::vector<Influence> influences(const Site& site) const;
 
-  /// Distance from the point beyond which no place counts.
+  /// Distance from p beyond which nothing counts.
   double reach(const Site& site) const { return site.nearest().at.distance + width(site); }
 
-  /// How far p is from where its nearest projection jumps or splits: 0 there; 1 and more beyond the band.
-  ///
-  /// Going from the nearest point c straight through p, c stays the nearest up to the cut distance
-  /// tau = min over all curves and t of |D|^2 / (2 n . D), D = c(t) - c, n = (p - c) / |p - c|; for t -> c
-  /// that is the radius of curvature along n. |p - c| / tau is continuous in p wherever c is, and 1 wherever
-  /// c is not; what it lacks to 1 is compared with `band`. A strand of the axis that is near c, but far along
-  /// the axis, takes over across a plane in their middle: there the distance of p to the plane is compared
-  /// with band scale. Where c is about to jump to a place close by, the distance has a flat hump between the
-  /// two, before they are equally near: see flatness().
-  double lack(const Site& site) const;
-  /// What the places around have in the point: 1 at no lack, 0 at a lack of 1.
-  static double share(double lack);
+  /// The least of the terms above, each over the band: 0 on the cut locus, 1 and more beyond the band.
+  double cut_margin(const Site& site) const;
+  /// b of Binding: 1 up to the margin 0.08, falling to 0 at the margin 1 with a continuous derivative.
+  static double blend_weight(double margin);
 
-  /// False where lack() is at least 1, whatever other projections there are; cheaper, and needs none of them.
+  /// False where cut_margin() is at least 1, whatever other projections there are; cheaper, and needs none of
+  /// them.
   bool may_be_ambiguous(const Site& site) const;
 
  private:
   struct Curve {
     const BSpline* curve;
     double speed;               ///< bound on |c'|
-    std::vector<double> nodes;  ///< ascending, ends included
-    /// Along it, where the cut distance is looked for, and how far along that is.
+    std::vector<double> nodes;  ///< parameters, ascending, ends included
+    /// Samples for the cut distance: their parameters, and the length of the chain of samples up to each.
     std::vector<double> parameters, lengths;
     std::vector<Vec3> points, tangents, curvatures;
-    double spacing = 0.0;  ///< longest of points
+    double spacing = 0.0;  ///< largest distance of consecutive samples
 
     double length(double t) const;
   };
   struct Sample {
-    double t, excess;
+    double t, excess;  ///< excess: e(t)
     Vec3 point;
   };
 
   double width(const Site& site) const { return 2.0 * band_ * site.scale; }
-  /// Least of e + (max(lambda, 0) + |cosine|) / band over the places: e is the excess of their distance in
-  /// units of band scale, lambda as of a projection, the cosine is that between tangent and way to p. Both
-  /// are 0 where a pair of projections is born.
+  /// Least, over the samples, of e + (max(lambda, 0) + |cosine|) / band: e is the excess of their distance
+  /// over d in units of band scale, lambda as of a projection, cosine that between the tangent and the
+  /// direction to p. Where two critical points of the distance are about to appear, lambda and the cosine,
+  /// which are its second and first derivative up to factors, vanish together.
   double flatness(const Site& site) const;
+  /// The same between the samples first and first + 1.
   double flatness(const Site& site, std::uint32_t pair, std::size_t first) const;
   std::vector<Sample> samples(const Site& site, std::uint32_t pair) const;
-  static void raise_behind_humps(std::span<const double> minima, std::vector<Sample>& along);
-  static void lay_down(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
+  static void raise_behind_maxima(std::span<const double> minima, std::vector<Sample>& along);
+  static void distribute(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
 
   double band_;
   std::vector<Curve> curves_;

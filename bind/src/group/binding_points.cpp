@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include "place/placer.h"
+#include "place/evaluator.h"
 
 namespace tendril::bind {
 namespace {
@@ -43,16 +43,16 @@ class Groups : public PointGroups {
   }
 
   void place(std::size_t group, MutablePoints out) const override {
-    const Placer<double> placer(binding_.layout(), binding_.layout().numbers, posed_);
+    const Evaluator<double> evaluator(binding_.layout(), binding_.layout().numbers, posed_);
     std::array<double, kBlock> x, y, z;
     const std::size_t first = begin_[group], end = begin_[group + 1];
     for (std::size_t at = first; at < end; at += kBlock) {
       const std::size_t count = std::min(kBlock, end - at);
-      placer.place(pieces_, order_, records_, at, at + count, {x.data(), y.data(), z.data()});
+      evaluator.evaluate(pieces_, order_, records_, at, at + count, {x.data(), y.data(), z.data()});
       for (std::size_t i = 0; i < count; ++i) out[place_[at + i]] = Vec3(x[i], y[i], z[i]);
     }
     for (std::size_t b = blend_begin_[group]; b < blend_begin_[group + 1]; ++b) {
-      const Triple<double> p = placer.one(
+      const Triple<double> p = evaluator.one(
           blends_[b].point, [&](std::uint32_t span) -> const Piece<double>& { return pieces_[span]; });
       out[blends_[b].place] = Vec3(p.x, p.y, p.z);
     }

@@ -36,8 +36,8 @@ void bound_growth(const PolygonMesh& mesh, const Neighbours& neighbours, const V
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
   const auto spread = [&](std::uint32_t from) {
     for (const std::uint32_t next : neighbours.of(from)) {
-      const double way = (mesh.points[next] - mesh.points[from]).norm();
-      const auto most = static_cast<Number>(static_cast<double>(value(from)) + growth(next, way));
+      const double length = (mesh.points[next] - mesh.points[from]).norm();
+      const auto most = static_cast<Number>(static_cast<double>(value(from)) + growth(next, length));
       if (!(most < value(next))) continue;
       value(next) = most;
       waiting.push({most, next});

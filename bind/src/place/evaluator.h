@@ -6,19 +6,23 @@
 
 namespace tendril::bind {
 
-/// Places the points of a binding on posed curve-pairs, in numbers of type T.
+/// Evaluates a binding on posed curve-pairs, in numbers of type T.
+///
+/// Two passes: the loops of sweep.h write the points of a span's nearest projections in binding order, and
+/// flag the ones whose frame is near degenerate, which evaluate_by_rule() then overwrites; blend() adds the
+/// other shares of the points that have several.
 template <class T>
-class Placer {
+class Evaluator {
  public:
   using Numbers = BindingLayout::Numbers<T>;
-  Placer(const BindingLayout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
+  Evaluator(const BindingLayout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
       : layout_(layout), numbers_(numbers), posed_(posed) {
     layout.require_same_knots(posed);
   }
 
-  /// All points, each handed to write(slot, point) once (twice when it is blended, after which read(slot)
-  /// gives the first).
+  /// All points, in binding order.
   void update(const ColumnsView<T>& out, int threads) const;
+  /// All points, in the mesh's order.
   template <class Row>
   void update(Row* out, int threads) const;
 
@@ -29,19 +33,19 @@ class Placer {
 
   using Pieces = std::vector<Piece<T>>;
   /// Slots [begin, end) of an order of nearest projections, the first of them to out[0]; blends are left out.
-  void place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
-             std::size_t end, const ColumnsView<T>& out) const;
+  void evaluate(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
+                std::size_t end, const ColumnsView<T>& out) const;
   /// \param piece_of  of a span's index
   template <class PieceOf>
   Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
 
  private:
-  void mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
-            const ColumnsView<T>& out) const;
-  Triple<T> place_by_rule(std::uint32_t entry) const;
+  void mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
+                       const ColumnsView<T>& out) const;
+  Triple<T> evaluate_by_rule(std::uint32_t entry) const;
   template <class PieceOf>
-  Triple<T> place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
-                       std::size_t slot) const;
+  Triple<T> evaluate_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
+                          std::size_t slot) const;
   template <class Access>
   void blend(const Pieces& pieces, const Access& access, int threads) const;
   template <class Other>
@@ -53,18 +57,18 @@ class Placer {
 };
 
 template <class T>
-Triple<T> Placer<T>::place_by_rule(std::uint32_t entry) const {
+Triple<T> Evaluator<T>::evaluate_by_rule(std::uint32_t entry) const {
   const Vec3 p = from_axial(posed_[layout_.pair_of(entry)], layout_.entries[entry]);
   return {static_cast<T>(p.x()), static_cast<T>(p.y()), static_cast<T>(p.z())};
 }
 
-/// Where the loops found no frame, the curve-pair's own rules decide.
+/// Where the loops found the frame near degenerate: by the rules of CurvePair::frame.
 template <class T>
-void Placer<T>::mend(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
-                     const ColumnsView<T>& out) const {
+void Evaluator<T>::mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records,
+                                   const Run& part, const ColumnsView<T>& out) const {
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (!place_one(piece, part.off, records.from(i)).fault) continue;
-    const Triple<T> p = place_by_rule(order.entry[i]);
+    if (!evaluate_one(piece, part.off, records.from(i)).fault) continue;
+    const Triple<T> p = evaluate_by_rule(order.entry[i]);
     out.x[i - part.begin] = p.x;
     out.y[i - part.begin] = p.y;
     out.z[i - part.begin] = p.z;
@@ -72,8 +76,8 @@ void Placer<T>::mend(const Piece<T>& piece, const Order& order, const Records<T>
 }
 
 template <class T>
-void Placer<T>::place(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
-                      std::size_t end, const ColumnsView<T>& out) const {
+void Evaluator<T>::evaluate(const Pieces& pieces, const Order& order, const Records<T>& records,
+                            std::size_t begin, std::size_t end, const ColumnsView<T>& out) const {
   auto run = std::upper_bound(order.runs.begin(), order.runs.end(), begin,
                               [](std::size_t at, const Run& r) { return at < r.end; });
   for (; run != order.runs.end() && run->begin < end; ++run) {
@@ -81,24 +85,25 @@ void Placer<T>::place(const Pieces& pieces, const Order& order, const Records<T>
                    std::min(run->end, static_cast<std::uint32_t>(end)), run->off};
     const ColumnsView<T> to = out.from(part.begin - begin);
     if (sweep(pieces[part.span], part.off, records.from(part.begin), to, part.end - part.begin))
-      mend(pieces[part.span], order, records, part, to);
+      mend_degenerate(pieces[part.span], order, records, part, to);
   }
 }
 
 template <class T>
 template <class PieceOf>
-Triple<T> Placer<T>::place_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
-                                std::size_t slot) const {
+Triple<T> Evaluator<T>::evaluate_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
+                                      std::size_t slot) const {
   const Run& run = order.run_of(slot);
-  const Placed<T> placed = place_one(piece_of(run.span), run.off, records.from(slot));
-  return placed.fault ? place_by_rule(order.entry[slot]) : placed.point;
+  const Evaluated<T> evaluated = evaluate_one(piece_of(run.span), run.off, records.from(slot));
+  return evaluated.fault ? evaluate_by_rule(order.entry[slot]) : evaluated.point;
 }
 
-/// The nearest projection's point and the weighted differences to it: at rest these vanish, whatever rounding
-/// the weights have.
+/// The nearest projection's point plus the weighted differences of the others to it: at rest these vanish up
+/// to rounding of the points, whatever the weights sum to.
 template <class T>
 template <class Other>
-Triple<T> Placer<T>::mix(const BindingLayout::Blend& blend, const Triple<T>& base, const Other& other) const {
+Triple<T> Evaluator<T>::mix(const BindingLayout::Blend& blend, const Triple<T>& base,
+                            const Other& other) const {
   Triple<T> sum = base;
   for (std::size_t k = blend.begin; k < blend.end; ++k)
     sum = sum + static_cast<T>(layout_.share[k]) * (other(layout_.other_slot[k]) - base);
@@ -107,17 +112,18 @@ Triple<T> Placer<T>::mix(const BindingLayout::Blend& blend, const Triple<T>& bas
 
 template <class T>
 template <class PieceOf>
-Triple<T> Placer<T>::one(std::size_t point, const PieceOf& piece_of) const {
+Triple<T> Evaluator<T>::one(std::size_t point, const PieceOf& piece_of) const {
   layout_.require_point(point);
-  const Triple<T> base = place_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
+  const Triple<T> base = evaluate_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
   const BindingLayout::Blend* blend = layout_.blend_of(point);
   if (!blend) return base;
-  return mix(*blend, base,
-             [&](std::size_t slot) { return place_slot(piece_of, layout_.others, numbers_.others, slot); });
+  return mix(*blend, base, [&](std::size_t slot) {
+    return evaluate_slot(piece_of, layout_.others, numbers_.others, slot);
+  });
 }
 
 template <class T>
-Triple<T> Placer<T>::one(std::size_t point) const {
+Triple<T> Evaluator<T>::one(std::size_t point) const {
   return one(point, [&](std::uint32_t span) {
     return pose<T>(layout_.spans[span], posed_[layout_.spans[span].pair]);
   });
@@ -125,7 +131,7 @@ Triple<T> Placer<T>::one(std::size_t point) const {
 
 template <class T>
 template <class Row>
-void Placer<T>::some(std::span<const std::uint32_t> points, Row* out) const {
+void Evaluator<T>::some(std::span<const std::uint32_t> points, Row* out) const {
   const Pieces pieces = pose<T>(layout_.spans, posed_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Triple<T> p = one(points[i], [&](std::uint32_t span) -> const Piece<T>& { return pieces[span]; });
@@ -133,16 +139,17 @@ void Placer<T>::some(std::span<const std::uint32_t> points, Row* out) const {
   }
 }
 
-/// \param access  of a point and its slot: reads with one argument less than it writes
+/// Adds the other shares of the points that have several.
+/// \param access  reads and writes a point by its index in the mesh
 template <class T>
 template <class Access>
-void Placer<T>::blend(const Pieces& pieces, const Access& access, int threads) const {
+void Evaluator<T>::blend(const Pieces& pieces, const Access& access, int threads) const {
   if (layout_.blends.empty()) return;
   const std::size_t count = layout_.others.entry.size();
   std::vector<T> x(count), y(count), z(count);
   in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
-    place(pieces, layout_.others, numbers_.others, begin, end,
-          {x.data() + begin, y.data() + begin, z.data() + begin});
+    evaluate(pieces, layout_.others, numbers_.others, begin, end,
+             {x.data() + begin, y.data() + begin, z.data() + begin});
   });
   in_parts(layout_.blends.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -155,10 +162,10 @@ void Placer<T>::blend(const Pieces& pieces, const Access& access, int threads) c
 }
 
 template <class T>
-void Placer<T>::update(const ColumnsView<T>& out, int threads) const {
+void Evaluator<T>::update(const ColumnsView<T>& out, int threads) const {
   const Pieces pieces = pose<T>(layout_.spans, posed_);
   in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
-    place(pieces, layout_.nearest, numbers_.nearest, begin, end, out.from(begin));
+    evaluate(pieces, layout_.nearest, numbers_.nearest, begin, end, out.from(begin));
   });
   struct Access {
     const ColumnsView<T>& out;
@@ -175,14 +182,14 @@ void Placer<T>::update(const ColumnsView<T>& out, int threads) const {
 
 template <class T>
 template <class Row>
-void Placer<T>::update(Row* out, int threads) const {
+void Evaluator<T>::update(Row* out, int threads) const {
   constexpr std::size_t kBlock = 512;  // columns that stay in the fastest cache until they are rows
   const Pieces pieces = pose<T>(layout_.spans, posed_);
   in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
     std::array<T, kBlock> x, y, z;
     for (std::size_t at = begin; at < end; at += kBlock) {
       const std::size_t count = std::min(kBlock, end - at);
-      place(pieces, layout_.nearest, numbers_.nearest, at, at + count, {x.data(), y.data(), z.data()});
+      evaluate(pieces, layout_.nearest, numbers_.nearest, at, at + count, {x.data(), y.data(), z.data()});
       for (std::size_t i = 0; i < count; ++i) out[layout_.nearest.entry[at + i]] = Row(x[i], y[i], z[i]);
     }
   });

@@ -13,7 +13,7 @@ struct Run {
   bool off;  ///< the normal planes: w is more than rounding
 };
 
-/// Places sorted by span, those off their normal plane last, in either part as they came.
+/// Records sorted by span, those off their normal plane last, in either part in the order given.
 struct Order {
   std::vector<std::uint32_t> entry;  ///< of each slot
   std::vector<Run> runs;
@@ -21,15 +21,15 @@ struct Order {
   const Run& run_of(std::size_t slot) const;
 };
 
-/// A binding on flat arrays. Its entries are the nearest projection of every point, then the other places in
-/// use, point after point.
+/// A binding on flat arrays. Its entries are the nearest projection of every point, then their other
+/// records, point after point.
 struct BindingLayout {
   std::vector<KnotVector> knots;  ///< of each curve-pair
   std::size_t size = 0;           ///< points
   std::vector<AxialPoint> entries;
   std::vector<std::uint32_t> pair;  ///< of each entry; empty when there is one curve-pair
 
-  /// Points with several places: their others are the entries size + [begin, end).
+  /// Points with several shares: their others are the entries size + [begin, end).
   struct Blend {
     std::uint32_t point, begin, end;
   };

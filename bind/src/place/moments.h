@@ -13,9 +13,10 @@ struct Moments {
 
 inline constexpr std::size_t kMomentChunk = 256;
 
-/// Adds what forces on points of a span do to its polynomials: the transpose of place() by c_j and d_j, the
-/// records fixed. Where there is no frame the point is taken to follow the curve alone. The sum has one
-/// order, eight lanes added up in the end, on every vector unit. \param count  at most kMomentChunk
+/// Adds what forces on points of a span do to its polynomials: the transpose of evaluate() by c_j and d_j,
+/// the records fixed. Where there is no frame the point is taken to follow the curve alone. The sum has one
+/// order, eight lanes added up in the end, on every vector unit.
+/// \param count  at most kMomentChunk
 void add_moments(const Piece<double>& piece, const RecordsView<double>& records,
                  const ColumnsView<const double>& force, std::size_t count, Moments& to);
 void add_moments_on(VectorUnit unit, const Piece<double>& piece, const RecordsView<double>& records,

@@ -30,7 +30,7 @@ std::vector<Run> parts_of(const Order& order) {
   return parts;
 }
 
-/// \param force_of  of an entry: the force its place feels
+/// \param force_of  of an entry: the force on its position
 template <class ForceOf>
 void add_part(const Piece<double>& piece, const Order& order, const Records<double>& records, const Run& part,
               const ForceOf& force_of, Moments& to) {

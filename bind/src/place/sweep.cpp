@@ -13,11 +13,11 @@ TENDRIL_INLINE bool sweep_span(const Piece<T>& piece, const RecordsView<T>& reco
   Flag<T> left = 0;
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) {
-    const Placed<T> placed = place<T, P, Off>(local, s[i], u[i], v[i], Off ? w[i] : T(0));
-    x[i] = placed.point.x;
-    y[i] = placed.point.y;
-    z[i] = placed.point.z;
-    left |= placed.fault;
+    const Evaluated<T> evaluated = evaluate<T, P, Off>(local, s[i], u[i], v[i], Off ? w[i] : T(0));
+    x[i] = evaluated.point.x;
+    y[i] = evaluated.point.y;
+    z[i] = evaluated.point.z;
+    left |= evaluated.fault;
   }
   return left != 0;
 }
@@ -70,11 +70,11 @@ bool sweep(const Piece<T>& piece, bool off, const RecordsView<T>& records, const
 }
 
 template <class T>
-Placed<T> place_one(const Piece<T>& piece, bool off, const RecordsView<T>& at) {
+Evaluated<T> evaluate_one(const Piece<T>& piece, bool off, const RecordsView<T>& at) {
   return for_degree(piece.degree, [&](auto degree) {
     constexpr int p = decltype(degree)::value;
-    return off ? place<T, p, true>(piece, *at.s, *at.u, *at.v, *at.w)
-               : place<T, p, false>(piece, *at.s, *at.u, *at.v, T(0));
+    return off ? evaluate<T, p, true>(piece, *at.s, *at.u, *at.v, *at.w)
+               : evaluate<T, p, false>(piece, *at.s, *at.u, *at.v, T(0));
   });
 }
 
@@ -84,9 +84,9 @@ template bool sweep(const Piece<float>&, bool, const RecordsView<float>&, const 
                     std::size_t);
 template bool sweep_on(VectorUnit, const Piece<double>&, bool, const RecordsView<double>&,
                        const ColumnsView<double>&, std::size_t);
-template Placed<double> place_one(const Piece<double>&, bool, const RecordsView<double>&);
+template Evaluated<double> evaluate_one(const Piece<double>&, bool, const RecordsView<double>&);
 template bool sweep_on(VectorUnit, const Piece<float>&, bool, const RecordsView<float>&,
                        const ColumnsView<float>&, std::size_t);
-template Placed<float> place_one(const Piece<float>&, bool, const RecordsView<float>&);
+template Evaluated<float> evaluate_one(const Piece<float>&, bool, const RecordsView<float>&);
 
 }  // namespace tendril::bind

@@ -10,7 +10,7 @@
 #include "spans.h"
 #include "vector_units.h"
 
-/// Places of points on posed curve-pairs, many at a time. Every operation is elementwise and none is
+/// Positions of points on posed curve-pairs, many at a time. Every operation is elementwise and none is
 /// contracted, so a point has the same bits whatever vector unit it went through, and alone.
 namespace tendril::bind {
 
@@ -116,14 +116,14 @@ TENDRIL_INLINE Lengths<T> inverse_lengths(const Moving<T>& at) {
 }
 
 template <class T>
-struct Placed {
+struct Evaluated {
   Triple<T> point;
   Flag<T> fault;  ///< not 0: not to be used
 };
 
 /// c + u l_x + v l_y + w l_z, the last only where the record is off the normal plane.
 template <class T, int P, bool Off>
-TENDRIL_INLINE Placed<T> place(const Piece<T>& piece, T s, T u, T v, T w) {
+TENDRIL_INLINE Evaluated<T> evaluate(const Piece<T>& piece, T s, T u, T v, T w) {
   const Moving<T> at = moving<T, P>(piece, s);
   const Lengths<T> inverse = inverse_lengths(at);
   const Triple<T> y = cross(at.z, at.x);
@@ -132,7 +132,7 @@ TENDRIL_INLINE Placed<T> place(const Piece<T>& piece, T s, T u, T v, T w) {
   return {point, std::bit_cast<Flag<T>>(T(1) - at.sound)};
 }
 
-/// Places `count` points; true when one was left to the second pass.
+/// Evaluates `count` points; true when one was left to the second pass.
 /// \param off  false: w is 0 for all, and is not read
 template <class T>
 bool sweep(const Piece<T>& piece, bool off, const RecordsView<T>& records, const ColumnsView<T>& out,
@@ -145,6 +145,6 @@ bool sweep_on(VectorUnit unit, const Piece<T>& piece, bool off, const RecordsVie
 
 /// One point, the same bits.
 template <class T>
-Placed<T> place_one(const Piece<T>& piece, bool off, const RecordsView<T>& record);
+Evaluated<T> evaluate_one(const Piece<T>& piece, bool off, const RecordsView<T>& record);
 
 }  // namespace tendril::bind

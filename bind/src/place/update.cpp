@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "placer.h"
+#include "evaluator.h"
 
 namespace tendril::bind {
 namespace {
@@ -26,7 +26,7 @@ ColumnsView<T> view(const Columns<T>& out, std::size_t size) {
   return {out.x.data(), out.y.data(), out.z.data()};
 }
 
-Placer<double> placer(const BindingLayout& layout, std::span<const CurvePair> posed) {
+Evaluator<double> evaluator(const BindingLayout& layout, std::span<const CurvePair> posed) {
   return {layout, layout.numbers, posed};
 }
 
@@ -35,7 +35,7 @@ Placer<double> placer(const BindingLayout& layout, std::span<const CurvePair> po
 void Binding::update(std::span<const CurvePair> posed, MutablePoints out, int threads) const {
   require("out", out.size(), size());
   require_threads(threads);
-  placer(*layout_, posed).update(out.data(), threads);
+  evaluator(*layout_, posed).update(out.data(), threads);
 }
 
 void Binding::update(const CurvePair& posed, MutablePoints out, int threads) const {
@@ -44,11 +44,11 @@ void Binding::update(const CurvePair& posed, MutablePoints out, int threads) con
 
 void Binding::update(std::span<const CurvePair> posed, const Columns<double>& out, int threads) const {
   require_threads(threads);
-  placer(*layout_, posed).update(view(out, size()), threads);
+  evaluator(*layout_, posed).update(view(out, size()), threads);
 }
 
 Vec3 Binding::at(std::span<const CurvePair> posed, std::size_t point) const {
-  const Triple<double> p = placer(*layout_, posed).one(point);
+  const Triple<double> p = evaluator(*layout_, posed).one(point);
   return {p.x, p.y, p.z};
 }
 
@@ -59,7 +59,7 @@ Vec3 Binding::at(const CurvePair& posed, std::size_t point) const {
 void Binding::at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points,
                  MutablePoints out) const {
   require("out", out.size(), points.size());
-  placer(*layout_, posed).some(points, out.data());
+  evaluator(*layout_, posed).some(points, out.data());
 }
 
 struct Bindingf::Numbers : BindingLayout::Numbers<float> {};
@@ -72,16 +72,16 @@ Bindingf::Bindingf(const Binding& binding)
 void Bindingf::update(std::span<const CurvePair> posed, std::span<Eigen::Vector3f> out, int threads) const {
   require("out", out.size(), size());
   require_threads(threads);
-  Placer<float>(*binding_.layout_, *numbers_, posed).update(out.data(), threads);
+  Evaluator<float>(*binding_.layout_, *numbers_, posed).update(out.data(), threads);
 }
 
 void Bindingf::update(std::span<const CurvePair> posed, const Columns<float>& out, int threads) const {
   require_threads(threads);
-  Placer<float>(*binding_.layout_, *numbers_, posed).update(view(out, size()), threads);
+  Evaluator<float>(*binding_.layout_, *numbers_, posed).update(view(out, size()), threads);
 }
 
 Eigen::Vector3f Bindingf::at(std::span<const CurvePair> posed, std::size_t point) const {
-  const Triple<float> p = Placer<float>(*binding_.layout_, *numbers_, posed).one(point);
+  const Triple<float> p = Evaluator<float>(*binding_.layout_, *numbers_, posed).one(point);
   return {p.x, p.y, p.z};
 }
 

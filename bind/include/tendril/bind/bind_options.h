@@ -25,9 +25,9 @@ struct BindOptions {
   BindMode mode = BindMode::nearest;  ///< what a point is bound to
   /// BindMode::continuous: width of the blended zone on either side of the cut locus, relative to a local
   /// scale r: the smallest function on the mesh that is at least the distance d to the axis and falls along
-  /// the mesh by at most half the length of the way. r is d but near where the mesh meets its own axis, where
-  /// d vanishes and r does not. Above 0, at most 1. A wider zone stretches the mesh less and blends more of
-  /// it.
+  /// the mesh by at most half the length of the path. r is d but near where the mesh meets its own axis,
+  /// where d vanishes and r does not. Above 0, at most 1. A wider zone stretches the mesh less and blends
+  /// more of it.
   double band = 0.25;
   /// 1 to 256; the same bits for any number.
   int threads = 1;

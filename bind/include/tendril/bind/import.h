@@ -9,7 +9,7 @@
 
 /// Surface meshes from OFF and PLY.
 ///
-/// A file is either read completely or refused; nothing is repaired, merged, reordered or dropped on the way.
+/// A file is either read completely or refused; nothing is repaired, merged, reordered or dropped.
 /// What the mesh is like (holes, duplicates, zero area, ...) is the business of inspect() in inspect.h.
 ///
 /// Refused with InvalidInput, whose place is "name:line" (text, first line 1) or "name:byte N" (binary, first

@@ -90,7 +90,7 @@ class TENDRIL_BIND_API TearJudge {
 };
 
 /// Every triangle split in four at the middles of its edges; faces become fans of triangles first. Points
-/// keep their places.
+/// keep their ids.
 TENDRIL_BIND_API PolygonMesh split_at_middles(const PolygonMesh& mesh);
 
 }  // namespace tendril::bind

@@ -37,11 +37,11 @@ struct Material {
   double density;  ///< rho [mass / length^3], positive
 };
 
-/// Rod of one material and section. With L an edge's rest length, L_v the mean of those at a node and H_v half
-/// their sum, which differ at the ends: K_s = E A / L, K_l = 2 E I_1 / L_v, K_m = 2 E I_2 / L_v, K_w = G J / L,
-/// mass rho A H_v, spin inertia rho I_p H_v; the third spring is 0. A clamped cantilever of it converges to the
-/// elastica at second order in the edge length. Throws InvalidInput for numbers of points that differ, edges of
-/// length 0, and a material that is not positive.
+/// Rod of one material and section. With L an edge's rest length, L_v the mean of those at a node and H_v
+/// half their sum, which differ at the ends: K_s = E A / L, K_l = 2 E I_1 / L_v, K_m = 2 E I_2 / L_v, K_w = G
+/// J / L, mass rho A H_v, spin inertia rho I_p H_v; the third spring is 0. A clamped cantilever of it
+/// converges to the elastica at second order in the edge length. Throws InvalidInput for numbers of points
+/// that differ, edges of length 0, and a material that is not positive.
 /// \param p         rest positions, at least 2
 /// \param q         orientation masses, as many
 /// \param material  of the whole rod

@@ -9,7 +9,7 @@
 
 namespace tendril {
 
-/// How an equilibrium is looked for. Lengths compare with the longest rod's length l at rest.
+/// How an equilibrium is searched for. Lengths compare with the longest rod's length l at rest.
 struct StaticsOptions {
   /// Which equilibrium is followed.
   enum class Seek {
