@@ -25,9 +25,10 @@ Rod rod_between(const Vec3& from, const Vec3& to, int edges, double radius) {
 enum class Head { as_the_rod, softened };
 
 /// A stem along z, clamped at its foot, and two arms along x and -x at its head; all of unit bending
-/// stiffness and line density. \param edges  of the stem, a multiple of 5 \param radius  decides how much
-/// they stretch \param share  of the moment at the head to that of an arm's root: how far the softened joints
-/// give way
+/// stiffness and line density.
+/// \param edges  of the stem, a multiple of 5
+/// \param radius  decides how much they stretch
+/// \param share  of the moment at the head to that of an arm's root: how far the softened joints give way
 Scene tee(int edges, Head joint, double share, double radius) {
   Scene scene;
   const double h = kStem / edges;

@@ -40,7 +40,8 @@ Trial repeated(const Solver& solver, const Problem& problem, double tolerance, d
   return best;
 }
 
-/// Takes a trial into account. \return whether a tighter tolerance is still worth a try
+/// Takes a trial into account.
+/// \return  whether a tighter tolerance is still worth a try
 bool take(const Problem& problem, const Reference& reference, Trial trial, Score& score) {
   score.per_evaluation = trial.seconds / static_cast<double>(trial.evaluations);
   if (!trial.failure.empty()) {

@@ -142,7 +142,8 @@ struct Session {
   SUNLinearSolver solver = nullptr;
 };
 
-/// Steps on until the end, the cap or a failure. \param step  one internal step, its flag negative on failure
+/// Steps on until the end, the cap or a failure.
+/// \param step  one internal step, its flag negative on failure
 template <class Step>
 void drive(const Problem& problem, double cap, Session& session, const Step& step, Trial& out) {
   Deadline deadline(cap);

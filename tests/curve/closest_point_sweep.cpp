@@ -26,7 +26,8 @@ struct Tally {
   double gap = 0.0;  // greatest, in sizes
 };
 
-/// The gap is taken at its word, but for the rounding of the proof. \param extent  of the curve
+/// The gap is taken at its word, but for the rounding of the proof.
+/// \param extent  of the curve
 void judge(const BSpline& curve, const CertifiedDistance& certified, double extent, const Vec3& p,
            const Projection& found, Tally& tally) {
   const double size = extent + found.distance + p.norm();
