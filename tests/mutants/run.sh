@@ -3,8 +3,27 @@
 # notice. Prints who killed whom; the exit code is 1 when a mutant lives, or when an entry no longer fits the source.
 # Works on a copy in build/mutants; half an hour or so on two cores.
 #   tests/mutants/run.sh [FIRST [LAST]]     only these entries, counted from 1
+#   tests/mutants/run.sh --check            only whether every entry fits its source once; seconds, nothing is built
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+
+# Replaces FROM by TO in a file; fails unless FROM stands there once.
+mutate() { FROM=$2 TO=$3 perl -0pi -e '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/g; END { exit($n == 1 ? 0 : 1) }' "$1"; }
+
+if [ "${1:-}" = --check ]; then
+  misfits=0
+  scratch=$(mktemp)
+  trap 'rm -f "$scratch"' EXIT
+  while IFS= read -r line; do
+    case $line in
+      '@ '*) file=${line#'@ '} ;;
+      '- '*) from=${line#'- '} ;;
+      '= '*) cp "$file" "$scratch" && mutate "$scratch" "$from" "" || { echo "$file: does not fit once: $from" && misfits=1; } ;;
+    esac
+  done <tests/mutants/list.txt
+  exit $misfits
+fi
+
 . .cmake/packages.sh
 need_packages "${core_packages[@]}" "${test_packages[@]}"
 first=${1:-1}
@@ -32,8 +51,7 @@ try() {
   number=$((number + 1))
   if ((number < first || number > last)); then return; fi
   cp "$file" "$copy/$file"
-  if ! FROM=$from TO=$to perl -0pi -e \
-    '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/g; END { exit($n == 1 ? 0 : 1) }' "$copy/$file"; then
+  if ! mutate "$copy/$file" "$from" "$to"; then
     verdict="DOES NOT FIT THE SOURCE ONCE"
   elif ! make_tests; then
     verdict="DOES NOT BUILD"
