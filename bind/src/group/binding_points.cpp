@@ -26,8 +26,9 @@ void check(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> 
 /// Each group's points sorted by span, those off the normal plane last.
 class Groups : public PointGroups {
  public:
-  Groups(const Binding& binding, std::span<const std::uint32_t> begin, std::span<const std::uint32_t> points)
-      : binding_(binding),
+  Groups(std::shared_ptr<const BindingLayout> layout, std::span<const std::uint32_t> begin,
+         std::span<const std::uint32_t> points)
+      : layout_(std::move(layout)),
         begin_(begin.begin(), begin.end()),
         records_(points.size()),
         place_(points.size()) {
@@ -37,13 +38,13 @@ class Groups : public PointGroups {
   }
 
   void pose(std::span<const CurvePair> posed) override {
-    binding_.layout().require_same_knots(posed);
+    layout_->require_same_knots(posed);
     posed_.assign(posed.begin(), posed.end());
-    pieces_ = bind::pose<double>(binding_.layout().spans, posed_);
+    pieces_ = bind::pose<double>(layout_->spans, posed_);
   }
 
   void place(std::size_t group, MutablePoints out) const override {
-    const Evaluator<double> evaluator(binding_.layout(), binding_.layout().numbers, posed_);
+    const Evaluator<double> evaluator(*layout_, layout_->numbers, posed_);
     std::array<double, kBlock> x, y, z;
     const std::size_t first = begin_[group], end = begin_[group + 1];
     for (std::size_t at = first; at < end; at += kBlock) {
@@ -64,7 +65,7 @@ class Groups : public PointGroups {
   };
 
   void arrange(std::span<const std::uint32_t> points, std::uint32_t begin, std::uint32_t end) {
-    const Binding::Layout& layout = binding_.layout();
+    const BindingLayout& layout = *layout_;
     std::vector<std::uint32_t> sorted(end - begin);
     std::iota(sorted.begin(), sorted.end(), 0U);
     const auto run_of = [&](std::uint32_t i) {
@@ -94,7 +95,7 @@ class Groups : public PointGroups {
     records_.w[to] = all.w[from];
   }
 
-  Binding binding_;
+  std::shared_ptr<const BindingLayout> layout_;
   std::vector<std::uint32_t> begin_;
   Order order_;  ///< slots group by group
   Records<double> records_;
@@ -108,9 +109,9 @@ class Groups : public PointGroups {
 }  // namespace
 
 void BindingPoints::places(std::size_t point, std::vector<BoundPlace>& out) const {
-  const Binding::Layout& layout = binding_.layout();
+  const BindingLayout& layout = *binding_.layout_;
   layout.require_point(point);
-  const Binding::Layout::Blend* blend = layout.blend_of(point);
+  const BindingLayout::Blend* blend = layout.blend_of(point);
   out.clear();
   out.push_back({layout.pair_of(point), blend ? layout.kept[point] : 1.0, layout.entries[point]});
   for (std::size_t k = blend ? blend->begin : 0; k < (blend ? blend->end : 0); ++k) {
@@ -122,7 +123,7 @@ void BindingPoints::places(std::size_t point, std::vector<BoundPlace>& out) cons
 std::unique_ptr<PointGroups> BindingPoints::group(std::span<const std::uint32_t> begin,
                                                   std::span<const std::uint32_t> points) const {
   check(begin, points, size());
-  return std::make_unique<Groups>(binding_, begin, points);
+  return std::make_unique<Groups>(binding_.layout_, begin, points);
 }
 
 }  // namespace tendril::bind

@@ -95,6 +95,7 @@ class TENDRIL_BIND_API Binding {
 
  private:
   friend class Bindingf;
+  friend class BindingPoints;
   std::shared_ptr<const BindingLayout> layout_;
   BindReport report_;
 };
