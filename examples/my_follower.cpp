@@ -1,5 +1,5 @@
-// Extension point: a consumer of steps. This one prints where the tip of a rod is, ten times a second, while a
-// clamped rod falls; another could write a file, draw a picture or look for contacts.
+// Extension point: a consumer of steps. This one prints where the tip of a rod is, ten times a second, while
+// a clamped rod falls; another could write a file, draw a picture or look for contacts.
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
