@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReach = 0.6;         // of a predicted step, in units of what one step may do
 constexpr double kMostPoseTurn = 1.5;  // of an anchor in one step [rad]
-constexpr double kShortest = 1e-7;     // step of the way
+constexpr double kShortest = 1e-7;     // step, as a share of the path
 constexpr double kTooWild = 1e-6;      // step that only a wrong prediction asks for
 constexpr double kShortestToBranch = 1e-6;
 constexpr int kBranches = 2;  // directions that may become unstable in one step
@@ -35,19 +35,19 @@ void check(const State& start, const StaticsOptions& options) {
     throw InvalidInput("until", sentence(*options.until), sentence("a time from ", start.time, " on"));
 }
 
-/// A straight way of load and time, gone from 0 to 1.
-struct Way {
+/// A straight path of load and time, followed from 0 to 1.
+struct LoadPath {
   double load, time, by_load, by_time;
 };
 
-/// How a state stands whose unbalanced forces may do so much.
-Stability stand(const System& system, const State& state, double load, double unbalanced) {
+/// Stability of a state; `unbalanced` as for analyse().
+Stability stability_at(const System& system, const State& state, double load, double unbalanced) {
   StaticProblem problem(system);
-  Poise at;
+  StaticState at;
   at.state = state;
   at.load = load;
   Eigen::SparseMatrix<double> k;
-  if (!problem.settle(at).ok() || !problem.tangent(at, k).ok()) return {};
+  if (!problem.evaluate(at).ok() || !problem.tangent(at, k).ok()) return {};
   StaticTangent tangent(problem.coordinates().weight());
   tangent.set(k, problem.conservative());
   return analyse(problem.coordinates(), tangent, unbalanced);
@@ -61,11 +61,11 @@ class Search {
   Equilibrium run(State start);
 
  private:
-  bool settle(State start);
+  bool start_at(State start);
   bool first();
-  bool go(const Way& way, double begin, double part);
-  bool step(const Way& way, double& done, double& h);
-  double capped(const Way& way, double done, double h, const Eigen::VectorXd& rate) const;
+  bool go(const LoadPath& path, double begin, double part);
+  bool step(const LoadPath& path, double& done, double& h);
+  double capped(const LoadPath& path, double done, double h, const Eigen::VectorXd& rate) const;
   double pose_turn(double from, double to) const;
   void stop(Balance balance, const std::string& why);
   void stop(StaticNewton::Outcome outcome, const std::string& why);
@@ -77,8 +77,8 @@ class Search {
   const StaticsOptions& options_;
   StaticProblem problem_;
   StaticNewton newton_;
-  Poise at_;
-  int unstable_ = 0;  ///< directions where the search stands
+  StaticState at_;
+  int unstable_ = 0;  ///< directions, at the state reached
   Equilibrium out_;
 };
 
@@ -99,17 +99,17 @@ void Search::stop(StaticNewton::Outcome outcome, const std::string& why) {
   stop(balance, why);
 }
 
-bool Search::settle(State start) {
+bool Search::start_at(State start) {
   at_.state = std::move(start);
   at_.load = options_.first_load;
-  const Evaluation e = problem_.settle(at_);
+  const Evaluation e = problem_.evaluate(at_);
   if (!e.ok())
-    stop(Balance::not_evaluable, problem_.coordinates().place(e.node) + ": " + describe(e.outcome));
+    stop(Balance::not_evaluable, problem_.coordinates().name_of(e.node) + ": " + describe(e.outcome));
   return e.ok();
 }
 
 bool Search::first() {
-  Poise next = at_;
+  StaticState next = at_;
   const StaticNewton::Outcome outcome = newton_.find(next, kAny);
   if (outcome != StaticNewton::Outcome::found) {
     stop(outcome, newton_.reason());
@@ -131,38 +131,38 @@ double Search::pose_turn(double from, double to) const {
 }
 
 /// The step h cut so that what it is predicted to turn and stretch stays small.
-double Search::capped(const Way& way, double done, double h, const Eigen::VectorXd& rate) const {
+double Search::capped(const LoadPath& path, double done, double h, const Eigen::VectorXd& rate) const {
   for (int i = 0; i < 60; ++i, h /= 2) {
     const double from = at_.state.time;
-    const double to = way.time + (done + h) * way.by_time;
+    const double to = path.time + (done + h) * path.by_time;
     if (pose_turn(from, to) > kMostPoseTurn) continue;
     if (problem_.coordinates().reach(at_.state, h * rate, to) <= kReach) return h;
   }
   return h;
 }
 
-bool Search::step(const Way& way, double& done, double& h) {
+bool Search::step(const LoadPath& path, double& done, double& h) {
   Eigen::VectorXd rate;
-  const Evaluation e = problem_.drift(at_, way.by_load, way.by_time, rate);
+  const Evaluation e = problem_.drift(at_, path.by_load, path.by_time, rate);
   Eigen::VectorXd x = e.ok() ? newton_.follow(at_, rate) : Eigen::VectorXd{};
   if (x.size() == 0) x = Eigen::VectorXd::Zero(problem_.size());
   const double most = std::min(h, 1.0 - done);
-  h = capped(way, done, most, x);
+  h = capped(path, done, most, x);
   if (h < kTooWild) {
     x.setZero();
-    h = capped(way, done, most, x);
+    h = capped(path, done, most, x);
   }
   StaticNewton::Outcome outcome = StaticNewton::Outcome::not_evaluable;
   std::string why = "anchors move too fast";
   for (; h > std::min(kShortest, 0.5 * (1.0 - done)); h /= 4) {
     // The last step ends exactly where it should.
     const double s = done + h > 1.0 - 1e-12 ? 1.0 : done + h;
-    Poise next;
+    StaticState next;
     const Evaluation moved =
-        problem_.move(at_, h * x, way.time + s * way.by_time, way.load + s * way.by_load, next);
+        problem_.move(at_, h * x, path.time + s * path.by_time, path.load + s * path.by_load, next);
     if (!moved.ok()) {
       outcome = StaticNewton::Outcome::not_evaluable;
-      why = problem_.coordinates().place(moved.node) + ": " + describe(moved.outcome);
+      why = problem_.coordinates().name_of(moved.node) + ": " + describe(moved.outcome);
       continue;
     }
     // Past several bifurcations at once the branch taken would be a matter of chance.
@@ -183,11 +183,11 @@ bool Search::step(const Way& way, double& done, double& h) {
   return false;
 }
 
-/// \param begin, part  of all ways, for the progress
-bool Search::go(const Way& way, double begin, double part) {
+/// \param begin, part  of all paths, for the progress
+bool Search::go(const LoadPath& path, double begin, double part) {
   double h = options_.largest_step;
   for (double done = 0.0; done < 1.0;) {
-    if (!step(way, done, h)) return false;
+    if (!step(path, done, h)) return false;
     if (options_.progress && !options_.progress(begin + part * done)) {
       stop(Balance::cancelled, "cancelled");
       return false;
@@ -205,7 +205,7 @@ void Search::report() {
   out_.force_scale = problem_.force_scale(at_);
   out_.residual = out_.force_scale > 0.0 ? problem_.largest(at_.residual) / out_.force_scale : 0.0;
   out_.support = problem_.support(at_);
-  out_.stability = stand(system_, at_.state, at_.load, unbalanced());
+  out_.stability = stability_at(system_, at_.state, at_.load, unbalanced());
   out_.iterations = newton_.iterations;
   out_.factorisations = newton_.tangent().factorisations;
   out_.left = newton_.left;
@@ -216,7 +216,7 @@ Equilibrium Search::run(State start) {
   const double begin = start.time;
   const double load = options_.last_load - options_.first_load;
   const double time = options_.until.value_or(begin) - begin;
-  if (!settle(start)) {
+  if (!start_at(start)) {
     out_.state = std::move(start);
     return out_;
   }
@@ -266,7 +266,7 @@ Equilibrium find_equilibrium(const System& system, State start, const StaticsOpt
 }
 
 Stability stability_of(const System& system, const State& state, double load) {
-  return stand(system, state, load, 0.0);
+  return stability_at(system, state, load, 0.0);
 }
 
 }  // namespace tendril

@@ -66,15 +66,15 @@ void StaticCoordinates::sort_rods() {
   std::vector<std::ptrdiff_t> parent(count, -1);
   for (const Joint& joint : system_.scene().joints)
     parent[joint.child] = static_cast<std::ptrdiff_t>(joint.parent);
-  // Depths by walking up, each rod once: the way up ends where a depth is known.
+  // Depths by walking up, each rod once, to where a depth is known.
   std::vector<long> depth(count, -1);
-  std::vector<std::size_t> way;
+  std::vector<std::size_t> above;
   for (std::size_t r = 0; r < count; ++r) {
     std::ptrdiff_t up = static_cast<std::ptrdiff_t>(r);
     for (; up >= 0 && depth[static_cast<std::size_t>(up)] < 0; up = parent[static_cast<std::size_t>(up)])
-      way.push_back(static_cast<std::size_t>(up));
+      above.push_back(static_cast<std::size_t>(up));
     long d = up < 0 ? -1 : depth[static_cast<std::size_t>(up)];
-    for (; !way.empty(); way.pop_back()) depth[way.back()] = ++d;
+    for (; !above.empty(); above.pop_back()) depth[above.back()] = ++d;
   }
   rods_.resize(count);
   std::iota(rods_.begin(), rods_.end(), std::size_t{0});
@@ -189,12 +189,13 @@ void StaticCoordinates::turn_to_close(State& state, std::size_t from, std::size_
   }
 }
 
-/// Brings the node `to` to its target. \param turn  the largest of the step
+/// Brings the node `to` to its target.
+/// \param turn  the largest of the step
 void StaticCoordinates::close(State& state, std::size_t from, std::size_t to, const Vec3& target,
                               double turn) const {
   for (int i = 0; i < 3; ++i) turn_to_close(state, from, to, target - at(state.y, to), turn);
-  double way = 0.0;
-  for (std::size_t i = from; i < to; ++i) way += (at(state.y, i + 1) - at(state.y, i)).norm();
+  double length = 0.0;
+  for (std::size_t i = from; i < to; ++i) length += (at(state.y, i + 1) - at(state.y, i)).norm();
   const Vec3 miss = target - at(state.y, to);
   double gone = 0.0;
   Vec3 before = at(state.y, from);
@@ -202,7 +203,8 @@ void StaticCoordinates::close(State& state, std::size_t from, std::size_t to, co
     const Vec3 here = at(state.y, i + 1);
     gone += (here - before).norm();
     before = here;
-    state.y.segment<3>(3 * static_cast<Eigen::Index>(i + 1)) += way > 0.0 ? Vec3(gone / way * miss) : miss;
+    state.y.segment<3>(3 * static_cast<Eigen::Index>(i + 1)) +=
+        length > 0.0 ? Vec3(gone / length * miss) : miss;
   }
 }
 
@@ -264,7 +266,7 @@ void StaticCoordinates::stop(State& state) const {
   state.y.segment(6 * n + m, m).setZero();
 }
 
-std::string StaticCoordinates::place(std::size_t node) const {
+std::string StaticCoordinates::name_of(std::size_t node) const {
   std::size_t rod = 0;
   while (rod + 1 < system_.rods().size() && node >= system_.rods()[rod + 1].first) ++rod;
   return sentence("rod ", rod, " node ", node - system_.rods()[rod].first);

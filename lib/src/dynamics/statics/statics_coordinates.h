@@ -53,7 +53,7 @@ class StaticCoordinates {
   void stop(State& state) const;
 
   /// "rod 1 node 3"
-  std::string place(std::size_t node) const;
+  std::string name_of(std::size_t node) const;
 
  private:
   void hold();

@@ -40,7 +40,7 @@ bool StaticNewton::out_of_work() {
   return tangent_.factorisations >= options_.work_limit;
 }
 
-double StaticNewton::noise(const Poise& at) const {
+double StaticNewton::noise(const StaticState& at) const {
   return kNoise * (at.elastic + std::abs(at.load * at.potential) + problem_.coordinates().energy_scale());
 }
 
@@ -56,7 +56,7 @@ bool StaticNewton::lift(double least) {
   return false;
 }
 
-bool StaticNewton::factorise(const Poise& at) {
+bool StaticNewton::factorise(const StaticState& at) {
   Eigen::SparseMatrix<double> k;
   failure_ = problem_.tangent(at, k);
   if (!failure_.ok()) return false;
@@ -82,14 +82,14 @@ Eigen::VectorXd StaticNewton::solve(const Eigen::VectorXd& b) const {
   return cautious_ ? tangent_.solve_but_neutral(b) : tangent_.solve(b);
 }
 
-double StaticNewton::size_of(const Eigen::VectorXd& x, const Poise& at) const {
+double StaticNewton::size_of(const Eigen::VectorXd& x, const StaticState& at) const {
   const double size = problem_.coordinates().norm(x);
   const double scale = problem_.coordinates().energy_scale();
   // Along a nearly neutral direction rounding makes long steps that gain next to nothing.
   return scale > 0.0 ? std::min(size, std::sqrt(std::abs(x.dot(at.residual)) / scale)) : size;
 }
 
-bool StaticNewton::plan(const Poise& at, Step& step) {
+bool StaticNewton::plan(const StaticState& at, Step& step) {
   if (!factorise(at)) return false;
   step.x = -solve(at.residual);
   if (!step.x.allFinite()) {
@@ -102,12 +102,12 @@ bool StaticNewton::plan(const Poise& at, Step& step) {
   return true;
 }
 
-bool StaticNewton::try_move(const Poise& from, const Eigen::VectorXd& x, Poise& to) {
+bool StaticNewton::try_move(const StaticState& from, const Eigen::VectorXd& x, StaticState& to) {
   failure_ = problem_.move(from, x, from.state.time, from.load, to);
   return failure_.ok();
 }
 
-StaticNewton::Outcome StaticNewton::find(Poise& at, int most_unstable) {
+StaticNewton::Outcome StaticNewton::find(StaticState& at, int most_unstable) {
   most_unstable_ = most_unstable;
   last_step_ = 0.0;
   last_iterations_ = 0;
@@ -127,14 +127,14 @@ StaticNewton::Outcome StaticNewton::find(Poise& at, int most_unstable) {
 }
 
 /// A whole step that changes the energy by less than its rounding.
-bool StaticNewton::gains_nothing(const Poise& at, const Step& step) const {
+bool StaticNewton::gains_nothing(const StaticState& at, const Step& step) const {
   return step.part == 1.0 && std::abs(step.x.dot(at.residual)) < noise(at);
 }
 
 /// One step under the watch of the energy: some steps may lie above the lowest one seen, since turning an
 /// edge past its neighbours' turns stretches it for one step; then back to that one, with shorter steps.
-bool StaticNewton::take_downhill(Poise& at, const Step& step) {
-  Poise next;
+bool StaticNewton::take_downhill(StaticState& at, const Step& step) {
+  StaticState next;
   bool moved = try_move(at, step.part * step.x, next);
   if (moved && next.energy() <= best_.energy() + noise(best_)) {
     at = best_ = std::move(next);
@@ -152,7 +152,7 @@ bool StaticNewton::take_downhill(Poise& at, const Step& step) {
   return limit_ > 1e-12;
 }
 
-StaticNewton::Outcome StaticNewton::descend(Poise& at) {
+StaticNewton::Outcome StaticNewton::descend(StaticState& at) {
   best_ = at;
   uphill_ = 0;
   double before = INFINITY;
@@ -163,14 +163,14 @@ StaticNewton::Outcome StaticNewton::descend(Poise& at) {
     if (!plan(at, step))
       return out_of_work()
                  ? fail(Outcome::work_limit, "the work limit")
-                 : fail(Outcome::not_evaluable, sentence(problem_.coordinates().place(failure_.node), ": ",
+                 : fail(Outcome::not_evaluable, sentence(problem_.coordinates().name_of(failure_.node), ": ",
                                                          describe(failure_.outcome)));
     last_step_ = step.size;
     if (last_iterations_ == 0 && unstable_ > most_unstable_)
-      return fail(Outcome::too_unstable, sentence(unstable_, " ways to leave at once"));
+      return fail(Outcome::too_unstable, sentence(unstable_, " unstable directions at once"));
     if (indefinite_ && step.size < kNearSaddle && leave(at)) continue;
     if (step.part == 1.0 && step.size <= options_.tolerance) {
-      Poise next;
+      StaticState next;
       if (try_move(at, step.x, next)) at = std::move(next);
       return Outcome::found;
     }
@@ -192,8 +192,8 @@ StaticNewton::Outcome StaticNewton::descend(Poise& at) {
 
 /// Steps by the tangent at hand while they shrink well. True when the next is within the tolerance; else
 /// `step` is the next.
-bool StaticNewton::chords(Poise& at, Step& step) {
-  Poise next;
+bool StaticNewton::chords(StaticState& at, Step& step) {
+  StaticState next;
   for (int i = 0; i < kMostChords && step.size > options_.tolerance; ++i, ++iterations) {
     if (!try_move(at, step.x, next)) return false;
     const Eigen::VectorXd x = -solve(next.residual);
@@ -207,8 +207,9 @@ bool StaticNewton::chords(Poise& at, Step& step) {
 }
 
 /// From amplitude on along +x or -x, whichever is lower, as long as the energy falls.
-bool StaticNewton::fall(const Poise& at, double amplitude, const Eigen::VectorXd& x, Poise& lowest) {
-  Poise next;
+bool StaticNewton::fall(const StaticState& at, double amplitude, const Eigen::VectorXd& x,
+                        StaticState& lowest) {
+  StaticState next;
   double sign = 1.0;
   if (!try_move(at, -amplitude * x, next)) return false;
   const double behind = next.energy();
@@ -222,7 +223,7 @@ bool StaticNewton::fall(const Poise& at, double amplitude, const Eigen::VectorXd
 }
 
 /// Off an unstable equilibrium along its lowest mode, as far as the energy falls.
-bool StaticNewton::leave(Poise& at) {
+bool StaticNewton::leave(StaticState& at) {
   const double threshold = least_lift();
   LowestMode mode = lowest_mode(tangent_, threshold);
   factored_ = false;
@@ -234,8 +235,8 @@ bool StaticNewton::leave(Poise& at) {
       break;
     }
   mode.x /= problem_.coordinates().reach(at.state, mode.x, at.state.time);
-  // Just past a bifurcation the energy falls only for a short way.
-  Poise lowest = at;
+  // Just past a bifurcation the energy falls only over a short length.
+  StaticState lowest = at;
   for (double amplitude = kKick; amplitude > 1e-4 * kKick && !fall(at, amplitude, mode.x, lowest);)
     amplitude /= 4;
   if (!(lowest.energy() < at.energy() - noise(at))) return false;
@@ -246,7 +247,7 @@ bool StaticNewton::leave(Poise& at) {
 }
 
 /// Newton's method with the test of natural monotony: the next step by the same tangent must be shorter.
-StaticNewton::Outcome StaticNewton::contract(Poise& at) {
+StaticNewton::Outcome StaticNewton::contract(StaticState& at) {
   double before = INFINITY;
   int slow = 0;
   for (; last_iterations_ < kMostContracting; ++last_iterations_, ++iterations) {
@@ -254,9 +255,9 @@ StaticNewton::Outcome StaticNewton::contract(Poise& at) {
     Step step;
     if (!plan(at, step))
       return fail(Outcome::not_evaluable,
-                  sentence(problem_.coordinates().place(failure_.node), ": ", describe(failure_.outcome)));
+                  sentence(problem_.coordinates().name_of(failure_.node), ": ", describe(failure_.outcome)));
     last_step_ = step.size;
-    Poise next;
+    StaticState next;
     const bool last = step.part == 1.0 && step.size <= options_.tolerance;
     bool shorter = false;
     for (double part = step.part; part > kLeastPart * step.part && !shorter; part *= last ? 0.0 : 0.5)
@@ -277,7 +278,7 @@ StaticNewton::Outcome StaticNewton::contract(Poise& at) {
               sentence("not converged in ", kMostContracting, " iterations, the last of size ", last_step_));
 }
 
-Eigen::VectorXd StaticNewton::follow(const Poise& at, const Eigen::VectorXd& rate) {
+Eigen::VectorXd StaticNewton::follow(const StaticState& at, const Eigen::VectorXd& rate) {
   if (problem_.size() == 0) return {};
   // The last tangent is that at the equilibrium or next to it, unless it was shifted.
   if ((!factored_ || shift_ > 0.0) && !factorise(at)) return {};

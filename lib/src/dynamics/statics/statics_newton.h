@@ -11,13 +11,13 @@ class StaticNewton {
   StaticNewton(StaticProblem& problem, const StaticsOptions& options);
 
   enum class Outcome { found, stalled, work_limit, not_evaluable, too_unstable };
-  /// Moves `at` (settled) to an equilibrium at its load and time. On another outcome `at` is not to be used,
-  /// and reason() says why.
+  /// Moves `at` (evaluated) to an equilibrium at its load and time. On another outcome `at` is not to be
+  /// used, and reason() says why.
   /// \param most_unstable  directions that may be unstable where it begins
-  Outcome find(Poise& at, int most_unstable);
+  Outcome find(StaticState& at, int most_unstable);
 
-  /// -K^-1 rate, with the tangent at the poise; empty when there is none.
-  Eigen::VectorXd follow(const Poise& at, const Eigen::VectorXd& rate);
+  /// -K^-1 rate, with the tangent at the static state; empty when there is none.
+  Eigen::VectorXd follow(const StaticState& at, const Eigen::VectorXd& rate);
 
   int unstable() const { return unstable_; }  ///< directions at the last tangent
   const std::string& reason() const { return reason_; }
@@ -35,21 +35,21 @@ class StaticNewton {
     bool downhill = true;
   };
   bool out_of_work();
-  bool factorise(const Poise& at);
+  bool factorise(const StaticState& at);
   double least_lift() const;
   bool lift(double least);
-  bool plan(const Poise& at, Step& step);
-  Outcome descend(Poise& at);
-  Outcome contract(Poise& at);
+  bool plan(const StaticState& at, Step& step);
+  Outcome descend(StaticState& at);
+  Outcome contract(StaticState& at);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  double size_of(const Eigen::VectorXd& x, const Poise& at) const;
-  bool chords(Poise& at, Step& step);
-  bool take_downhill(Poise& at, const Step& step);
-  bool leave(Poise& at);
-  bool fall(const Poise& at, double amplitude, const Eigen::VectorXd& x, Poise& lowest);
-  bool try_move(const Poise& from, const Eigen::VectorXd& x, Poise& to);
-  double noise(const Poise& at) const;
-  bool gains_nothing(const Poise& at, const Step& step) const;
+  double size_of(const Eigen::VectorXd& x, const StaticState& at) const;
+  bool chords(StaticState& at, Step& step);
+  bool take_downhill(StaticState& at, const Step& step);
+  bool leave(StaticState& at);
+  bool fall(const StaticState& at, double amplitude, const Eigen::VectorXd& x, StaticState& lowest);
+  bool try_move(const StaticState& from, const Eigen::VectorXd& x, StaticState& to);
+  double noise(const StaticState& at) const;
+  bool gains_nothing(const StaticState& at, const Step& step) const;
   Outcome fail(Outcome outcome, std::string reason);
 
   StaticProblem& problem_;
@@ -61,8 +61,8 @@ class StaticNewton {
   bool indefinite_ = false;
   bool cautious_ = false;  ///< neutral directions are kept out of steps
   double shift_ = 0.0;
-  Poise best_;      ///< lowest energy so far
-  int uphill_ = 0;  ///< steps since
+  StaticState best_;  ///< lowest energy so far
+  int uphill_ = 0;    ///< steps since
   double limit_ = 1.0;
   std::string reason_;
   Evaluation failure_;

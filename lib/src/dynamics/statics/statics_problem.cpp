@@ -33,7 +33,7 @@ StaticProblem::StaticProblem(const System& system)
   turning_work_ = turning_->make_workspace();
 }
 
-Evaluation StaticProblem::settle(Poise& at) {
+Evaluation StaticProblem::evaluate(StaticState& at) {
   if (const Evaluation e = system_.rebase(at.state, *work_); !e.ok()) return e;
   coordinates_.stop(at.state);
   if (const Evaluation e =
@@ -48,17 +48,18 @@ Evaluation StaticProblem::settle(Poise& at) {
   return {Evaluation::Outcome::not_finite, 0};
 }
 
-Evaluation StaticProblem::move(const Poise& from, const Eigen::VectorXd& x, double time, double load,
-                               Poise& to) {
+Evaluation StaticProblem::move(const StaticState& from, const Eigen::VectorXd& x, double time, double load,
+                               StaticState& to) {
   to.state = from.state;
   to.load = load;
   coordinates_.displace(to.state, x, time);
-  return settle(to);
+  return evaluate(to);
 }
 
 /// Positions of moving anchors go by the columns of the Hessian: differences of a stiff rod's forces would
 /// drown in rounding. Their frames go by differences, at positions that stay, where the tensions cancel.
-Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time, Eigen::VectorXd& rate) {
+Evaluation StaticProblem::drift(const StaticState& at, double by_load, double by_time,
+                                Eigen::VectorXd& rate) {
   rate = -by_load * at.loads;
   if (by_time == 0.0) return {};
   const double share = 1e-6;
@@ -87,7 +88,7 @@ Evaluation StaticProblem::drift(const Poise& at, double by_load, double by_time,
   return {};
 }
 
-Evaluation StaticProblem::tangent(const Poise& at, Eigen::SparseMatrix<double>& k) {
+Evaluation StaticProblem::tangent(const StaticState& at, Eigen::SparseMatrix<double>& k) {
   Eigen::SparseMatrix<double>& elastic = elastic_;
   if (const Evaluation e = elastic_stiffness(system_, at.state, elastic, *work_); !e.ok()) return e;
   std::vector<std::pair<Eigen::Index, double>> column;
@@ -124,9 +125,9 @@ double StaticProblem::largest(const Eigen::VectorXd& residual) const {
   return most;
 }
 
-double StaticProblem::force_scale(const Poise& at) {
+double StaticProblem::force_scale(const StaticState& at) {
   const double length = coordinates_.length();
-  Poise again = at;
+  StaticState again = at;
   double unused = 0.0;
   double scale = coordinates_.energy_scale() / length;
   if (loads_.add(again.state, again.loads, unused, *work_).ok())
@@ -137,7 +138,7 @@ double StaticProblem::force_scale(const Poise& at) {
   return scale;
 }
 
-std::vector<Vec3> StaticProblem::support(const Poise& at) {
+std::vector<Vec3> StaticProblem::support(const StaticState& at) {
   Eigen::VectorXd loads;
   double unused = 0.0;
   std::vector<Vec3> support;

@@ -7,7 +7,7 @@
 namespace tendril {
 
 /// A state that is its own reference, and how far it is from balance.
-struct Poise {
+struct StaticState {
   State state;
   double load = 0.0;
   double elastic = 0.0, potential = 0.0;
@@ -27,24 +27,25 @@ class StaticProblem {
   Eigen::Index size() const { return coordinates_.size(); }
   bool conservative() const { return conservative_; }
 
-  /// Renews the frames of a poise whose state and load are set, and fills the rest.
-  Evaluation settle(Poise& at);
+  /// Renews the frames of a static state whose state and load are set, and fills the rest.
+  Evaluation evaluate(StaticState& at);
 
-  /// A poise moved by x at its load and on to `time`, settled.
-  Evaluation move(const Poise& from, const Eigen::VectorXd& x, double time, double load, Poise& to);
+  /// A static state moved by x at its load and on to `time`, evaluated.
+  Evaluation move(const StaticState& from, const Eigen::VectorXd& x, double time, double load,
+                  StaticState& to);
 
-  /// d residual / ds on the way (load, time) + s (by_load, by_time), 0 <= s <= 1.
-  Evaluation drift(const Poise& at, double by_load, double by_time, Eigen::VectorXd& rate);
+  /// d residual / ds on the path (load, time) + s (by_load, by_time), 0 <= s <= 1.
+  Evaluation drift(const StaticState& at, double by_load, double by_time, Eigen::VectorXd& rate);
 
   /// d residual / dx, of conservative scenes the lower triangle.
-  Evaluation tangent(const Poise& at, Eigen::SparseMatrix<double>& k);
+  Evaluation tangent(const StaticState& at, Eigen::SparseMatrix<double>& k);
 
   /// The largest of the loads, the reactions of held nodes, and B / l^2.
-  double force_scale(const Poise& at);
+  double force_scale(const StaticState& at);
   /// Largest force, or torque over the length.
   double largest(const Eigen::VectorXd& residual) const;
   /// The forces of anchors on their nodes.
-  std::vector<Vec3> support(const Poise& at);
+  std::vector<Vec3> support(const StaticState& at);
 
  private:
   const System& system_;
