@@ -4,9 +4,13 @@
 
 namespace tendril {
 
-/// A sink for stiffness_elements.h that adds to a matrix. The springs of a model hand over the same blocks in
-/// the same order every time, so where those stand is looked up the first time only. What the matrix does not
-/// keep (the lower half of a symmetric one) is dropped.
+/// A sink for stiffness_elements.h that adds to a matrix.
+///
+/// Which blocks the springs of a model add to, and in which order, depends on the model alone, not on its
+/// state. So the first pass records the address of each block in turn (its route), and every later pass reads
+/// the addresses off the route with a counter, without a search: restart() puts the counter back. Valid as
+/// long as the matrix keeps its pattern and its storage, and the model its springs. A null address stands for
+/// a block that the matrix does not keep (the lower half of a symmetric one): it is dropped.
 template <int B>
 class BlockRoute {
  public:

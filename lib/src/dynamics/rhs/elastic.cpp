@@ -54,11 +54,27 @@ struct Columns {
         energy(work.energy.data()),
         heat(work.heat.data()) {}
 
-  const double* __restrict k_l, * __restrict k_m, * __restrict k_t, * __restrict rest_l, * __restrict rest_m, * __restrict rest_t, * __restrict viscosity;
-  const double* __restrict k_stretch, * __restrict rest_length, * __restrict k_twist, * __restrict rest_twist, * __restrict reference, * __restrict spin, * __restrict length;
+  const double* __restrict k_l;
+  const double* __restrict k_m;
+  const double* __restrict k_t;
+  const double* __restrict rest_l;
+  const double* __restrict rest_m;
+  const double* __restrict rest_t;
+  const double* __restrict viscosity;
+  const double* __restrict k_stretch;
+  const double* __restrict rest_length;
+  const double* __restrict k_twist;
+  const double* __restrict rest_twist;
+  const double* __restrict reference;
+  const double* __restrict spin;
+  const double* __restrict length;
   const Reader e, e_rate, m, t, turning;
   const Writer g_bend, twist_tangent;
-  double* __restrict g_length, * __restrict g_spin, * __restrict twist_torque, * __restrict energy, * __restrict heat;
+  double* __restrict g_length;
+  double* __restrict g_spin;
+  double* __restrict twist_torque;
+  double* __restrict energy;
+  double* __restrict heat;
 };
 
 struct Axes {

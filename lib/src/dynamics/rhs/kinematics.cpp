@@ -55,7 +55,7 @@ TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Workspace& work)
   }
   return bad != 0;
 }
-TENDRIL_LANES bool measure_places(std::size_t first, std::size_t end, Workspace& work) {
+TENDRIL_LANES bool measure_positions(std::size_t first, std::size_t end, Workspace& work) {
   return measure<false>(first, end, work);
 }
 TENDRIL_LANES bool measure_all(std::size_t first, std::size_t end, Workspace& work) {
@@ -112,7 +112,8 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
   return bad != 0;
 }
 
-TENDRIL_LANES bool direct_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+TENDRIL_LANES bool direct_positions(std::size_t first, std::size_t end, const Carried& from,
+                                    Workspace& work) {
   return direct<false, true, false>(first, end, from, work);
 }
 TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
@@ -121,7 +122,8 @@ TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried&
 TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
   return direct<true, true, true>(first, end, from, work);
 }
-TENDRIL_LANES bool bisect_places(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
+TENDRIL_LANES bool bisect_positions(std::size_t first, std::size_t end, const Carried& from,
+                                    Workspace& work) {
   return direct<false, false, false>(first, end, from, work);
 }
 TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
@@ -139,7 +141,7 @@ bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspa
   return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, work);
 }
 
-void place_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
+void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
   take_apart(y.data(), model.nodes, work.p);
   take_apart(y.data() + model.v_begin(), model.nodes, work.v);
   for (std::size_t a = 0; a < model.anchors.size(); ++a) {
@@ -224,7 +226,7 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
                        Workspace& work) {
   for (const Model::Segment& s : model.segments) {
     if (!s.twist && what == Motion::springs) continue;
-    const bool places = what == Motion::places;
+    const bool positions = what == Motion::positions;
     Carried from{};
     if (s.twist) {
       const Eigen::Index k = model.twist_index[s.first];
@@ -232,13 +234,14 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
       const double* spin = y.data() + model.spin_begin() + k;
       std::copy(spin, spin + (s.end - s.first), &work.spin[s.first]);
     }
-    const auto fill = s.twist ? (places ? direct_places : direct_all) : (places ? bisect_places : bisect_all);
+    const auto fill =
+        s.twist ? (positions ? direct_positions : direct_all) : (positions ? bisect_positions : bisect_all);
     const bool bad = fill(s.first, s.end, from, work);
     if (!bad) continue;
     if (const Evaluation at = find_bad_tangent(model, reference, s, work); !at.ok()) return at;
   }
   take_held_frames(model, work);
-  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::places, work);
+  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::positions, work);
   return {};
 }
 
@@ -247,8 +250,8 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, Workspace& work) {
   if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
-  place_nodes(model, t, y, work);
-  const bool bad = (what == Motion::places ? measure_places : measure_all)(0, model.nodes, work);
+  set_nodes(model, t, y, work);
+  const bool bad = (what == Motion::positions ? measure_positions : measure_all)(0, model.nodes, work);
   clear_ends(model, work);
   if (bad)
     if (const Evaluation at = find_bad_edge(model, work); !at.ok()) return at;

@@ -63,9 +63,9 @@ Wind::Wind(const WindOptions& options) : options_(options) {
   if (options.waves < 0 || options.waves > 1000)
     throw InvalidInput("waves", std::to_string(options.waves), "0 to 1000");
   for (int k = 0; k < options.waves; ++k) {
-    const double place = options.waves > 1 ? static_cast<double>(k) / (options.waves - 1) - 0.5 : 0.0;
+    const double exponent = options.waves > 1 ? static_cast<double>(k) / (options.waves - 1) - 0.5 : 0.0;
     const auto counter = options.seed * 1024 + static_cast<std::uint64_t>(k) + 1;
-    waves_.push_back({options.gust_frequency * std::pow(10.0, place), phase_of(counter)});
+    waves_.push_back({options.gust_frequency * std::pow(10.0, exponent), phase_of(counter)});
   }
 }
 

@@ -84,8 +84,8 @@ Model::Model(Scene description, double since) : scene(std::move(description)), f
     check_rod(scene.rods[r], r);
     flatten(scene.rods[r]);
   }
-  place_anchors();
-  place_joints();
+  add_anchors();
+  add_joints();
   sort_rods();
   for (std::size_t f = 0; f < scene.forces.size(); ++f) {
     if (!scene.forces[f]) throw InvalidInput("forces[" + std::to_string(f) + "]", "null", "a force");
@@ -140,7 +140,7 @@ void Model::flatten_rest_angles(const NodeRange& range) {
   }
 }
 
-void Model::place_anchors() {
+void Model::add_anchors() {
   anchored.assign(nodes, 0);
   held_position.assign(nodes, 0);
   held_frame.assign(nodes, 0);
@@ -165,7 +165,7 @@ void Model::place_anchors() {
   }
 }
 
-void Model::place_joints() {
+void Model::add_joints() {
   ride_index.assign(rods.size(), -1);
   moved_mass = mass;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {

@@ -108,8 +108,8 @@ struct System::Model {
  private:
   void flatten(const Rod& rod);
   void flatten_rest_angles(const NodeRange& range);
-  void place_anchors();
-  void place_joints();
+  void add_anchors();
+  void add_joints();
   void sort_rods();
   void choose_twist();
   void choose_forces();
@@ -120,9 +120,9 @@ struct System::Model {
 
 /// Angles of a unit edge against a node frame, as the bending springs see them.
 struct EdgeAngles {
-  double x, y, z;  ///< e.l, e.m, e.t
-  double cl, cm,
-      st;  ///< cosines of the two deviations, sine of the angle to t; from components, never from 1 - x^2
+  double x, y, z;  ///< components e.l, e.m, e.t
+  double cl, cm;   ///< cosines of asin(x), asin(y), from the other components, never from 1 - x^2
+  double st;       ///< sine of the angle to t, likewise
   double l, m, t;  ///< asin(x), asin(y), angle to t
 };
 EdgeAngles edge_angles(const Vec3& e, const Frame& frame);

@@ -10,7 +10,7 @@
 namespace tendril {
 namespace {
 
-constexpr double kConverged = 1e-9;   // a correction's way over the step, in shortest edges or radians
+constexpr double kConverged = 1e-9;   // what a correction moves in the step, in shortest edges or radians
 constexpr double kDifference = 1e-7;  // of the matrix, likewise
 constexpr int kMatrices = 12;
 constexpr int kIterations = 12;  // on one matrix
@@ -116,12 +116,12 @@ bool BackwardEuler::Implementation::iterate(const State& from, double h, Eigen::
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kIterations; ++i) {
     const Eigen::VectorXd correction = matrix.solve(off);
-    const double way = h * correction.cwiseQuotient(scale).cwiseAbs().maxCoeff();
-    if (!(way < 0.5 * before)) return false;
+    const double moved_by = h * correction.cwiseQuotient(scale).cwiseAbs().maxCoeff();
+    if (!(moved_by < 0.5 * before)) return false;
     z -= correction;
     if (at = defect(from, h, z, off); !at.ok()) return false;
-    if (way <= kConverged) return true;
-    before = way;
+    if (moved_by <= kConverged) return true;
+    before = moved_by;
   }
   return false;
 }

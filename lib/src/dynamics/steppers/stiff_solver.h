@@ -24,15 +24,16 @@ class StiffSolver {
  public:
   virtual ~StiffSolver() = default;
 
-  /// Takes the Jacobian at a state. \param rate  y' there
-  /// Returns the number of evaluations of the equations (or of parts of them) it cost, negative when one
-  /// failed.
+  /// Takes the Jacobian at a state.
+  /// \param rate  y' there
+  /// \return  the number of evaluations of the equations (or of parts of them) it cost, negative when one
+  ///          failed
   virtual long differentiate(const State& state, const Eigen::VectorXd& rate) = 0;
 
   /// False when elimination breaks down.
   virtual bool factor(double s) = 0;
 
-  /// U and r laid out like y; held places and the work get 0.
+  /// U and r laid out like y; held coordinates and the work get 0.
   virtual void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) = 0;
 
   /// Derivative of y' by time; empty when nothing depends on time.

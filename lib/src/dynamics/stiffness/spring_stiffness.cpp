@@ -21,9 +21,11 @@ struct Component {
   double theta_theta;
 };
 
-/// The frame carried by the smallest rotation to t = t_s + d, then turned by theta, to second order:
-/// l: l - a t + theta m - a d / 2 - theta^2 l / 2 - theta b t,  m: m - b t - theta l - b d / 2 - theta^2 m /
-/// 2 + theta a t, with a = d.l, b = d.m.
+/// The frame carried by the smallest rotation to t = t_s + d, then turned by theta, to second order, with
+/// a = d.l, b = d.m:
+///
+///   l -> l - a t + theta m - a d / 2 - theta^2 l / 2 - theta b t
+///   m -> m - b t - theta l - b d / 2 - theta^2 m / 2 + theta a t
 Component along_l(const Frame& f, const EdgeAngles& at) {
   return {f.x,
           -at.z * f.x,

@@ -6,7 +6,7 @@ namespace tendril {
 
 /// Derivatives of one edge's bending and twist springs by what they see: the unit edge e, and tangent t and
 /// angle theta at its two nodes, in the expansion t_s + d, theta about the present frames. Blocks (row by
-/// column); what is symmetric stands once.
+/// column); what is symmetric is kept once.
 struct SpringStiffness {
   // Slopes: by e, by t of either node, and by theta of the first.
   Vec3 g_e = Vec3::Zero();
@@ -23,9 +23,8 @@ struct SpringStiffness {
   double theta0_theta1 = 0.0;
 };
 
-/// Second derivatives of the energy of edge i; needs its kinematics. With `viscous` each slope is that of
-/// strain
-/// + beta strain', as the forces are, which needs the rates.
+/// Second derivatives of the energy of edge i; needs its kinematics.
+/// \param viscous  each slope is that of strain + beta strain', as the forces are, which needs the rates
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
                                  const System::Workspace& work, bool viscous);
 

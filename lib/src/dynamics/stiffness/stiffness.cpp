@@ -11,13 +11,14 @@ struct Triplets {
 
   void block(std::size_t row, std::size_t column, const Mat3& k) {
     for (Eigen::Index r = 0; r < 3; ++r)
-      for (Eigen::Index c = 0; c < 3; ++c) entries.emplace_back(place(row) + r, place(column) + c, k(r, c));
+      for (Eigen::Index c = 0; c < 3; ++c)
+        entries.emplace_back(position(row) + r, position(column) + c, k(r, c));
   }
   void column(std::size_t row, std::size_t node, const Vec3& k) {
-    for (Eigen::Index r = 0; r < 3; ++r) entries.emplace_back(place(row) + r, angle(node), k[r]);
+    for (Eigen::Index r = 0; r < 3; ++r) entries.emplace_back(position(row) + r, angle(node), k[r]);
   }
   void row(std::size_t node, std::size_t column, const Vec3& k) {
-    for (Eigen::Index c = 0; c < 3; ++c) entries.emplace_back(angle(node), place(column) + c, k[c]);
+    for (Eigen::Index c = 0; c < 3; ++c) entries.emplace_back(angle(node), position(column) + c, k[c]);
   }
   void angles(std::size_t row, std::size_t column, double k) {
     entries.emplace_back(angle(row), angle(column), k);
@@ -27,7 +28,7 @@ struct Triplets {
   std::vector<Eigen::Triplet<double>> entries;
 
  private:
-  static Eigen::Index place(std::size_t node) { return 3 * static_cast<Eigen::Index>(node); }
+  static Eigen::Index position(std::size_t node) { return 3 * static_cast<Eigen::Index>(node); }
   Eigen::Index angle(std::size_t node) const { return model.v_begin() + model.twist_index[node]; }
 };
 

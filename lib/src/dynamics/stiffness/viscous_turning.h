@@ -10,16 +10,19 @@ namespace tendril {
 
 /// The derivative of the viscous forces by the coordinates at fixed velocities, as far as it is not that of
 /// the slopes (edge_stiffness counts those): a spring resists with -k beta q' grad q, and q' = grad q . x'
-/// changes as the rod turns. Left out, implicit steps of stiff viscous rods are drawn off their way: hundreds
-/// of times as many are needed. How fast grad q turns is taken by a central difference along the motion.
+/// changes as the rod turns. Left out, implicit steps of stiff viscous rods are drawn off the solution:
+/// hundreds of times as many are needed. How fast grad q turns is taken by a central difference along the
+/// motion.
 class ViscousTurning {
  public:
   explicit ViscousTurning(const Model& model) : model_(model) {
     for (auto& slopes : slopes_) slopes.resize(model.nodes);
   }
 
-  /// Adds it to a sink, minus sign included. \param rate  y' at the state; the workspace must hold its
-  /// kinematics with all rates, and does so again after it. False where the equations fail beside the state.
+  /// Adds it to a sink, minus sign included. The workspace must hold the state's kinematics with all rates,
+  /// and does so again after it.
+  /// \param rate  y' at the state
+  /// \return  false where the equations fail beside the state
   template <class Sink>
   bool add(const State& state, const Eigen::VectorXd& rate, System::Workspace& work, Sink& sink) {
     const double step = turning_step(work);
@@ -57,7 +60,7 @@ class ViscousTurning {
     moved_ = state.y;
     moved_.head(n3) += h * rate.head(n3);
     moved_.segment(model_.theta_begin(), m) += h * rate.segment(model_.theta_begin(), m);
-    if (!kinematics(model_, state, state.time + h, moved_, Motion::places, work).ok()) return false;
+    if (!kinematics(model_, state, state.time + h, moved_, Motion::positions, work).ok()) return false;
     for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, work, to[i]); });
     return true;
   }

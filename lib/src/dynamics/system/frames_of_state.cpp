@@ -37,7 +37,7 @@ void carry_along(const Model& model, const State& state, const NodeRange& rod, s
 }
 
 Evaluation all_frames(const Model& model, const State& state, Workspace& work) {
-  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::places, work); !at.ok())
+  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::positions, work); !at.ok())
     return at;
   for (std::size_t r = 0; r < model.rods.size(); ++r)
     if (!model.has_twist(model.rods[r].first)) carry_along(model, state, model.rods[r], model.seed[r], work);
@@ -63,7 +63,7 @@ void rebase_twisted(const Model& model, const NodeRange& rod, const Workspace& w
 
 Evaluation System::rebase(State& state, Workspace& work) const {
   const Model& model = *model_;
-  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::places, work); !at.ok())
+  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::positions, work); !at.ok())
     return at;
   for (std::size_t i = 0; i < model.nodes; ++i) {
     if (!model.holds_position(i)) continue;

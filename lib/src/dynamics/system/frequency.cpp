@@ -26,14 +26,14 @@ struct MassMetric {
           model.inertia[i]);
     }
   }
-  void add(Eigen::Index place, Eigen::Index its_rate, double mass) {
-    position.push_back(place);
+  void add(Eigen::Index index, Eigen::Index its_rate, double mass) {
+    position.push_back(index);
     rate.push_back(its_rate);
     root.push_back(std::sqrt(mass));
   }
   Eigen::Index size() const { return static_cast<Eigen::Index>(root.size()); }
 
-  std::vector<Eigen::Index> position, rate;  ///< places in y
+  std::vector<Eigen::Index> position, rate;  ///< indices in y
   std::vector<double> root;
   std::size_t turns_from = 0;  ///< coordinates from here on are angles
 };

@@ -67,7 +67,7 @@ Evaluation System::derivative(const State& reference, double t, const Eigen::Vec
 Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,
                                     double& energy, Eigen::VectorXd& gradient, Workspace& work) const {
   const Model& model = *model_;
-  if (const Evaluation at = kinematics(model, reference, t, y, Motion::places, work); !at.ok()) return at;
+  if (const Evaluation at = kinematics(model, reference, t, y, Motion::positions, work); !at.ok()) return at;
   if (const Evaluation at = elastic_energy(model, reference, work, energy); !at.ok()) return at;
   no_loads(work);
   pull_back(model, work);
