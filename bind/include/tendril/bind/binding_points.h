@@ -17,6 +17,7 @@ namespace tendril::bind {
 /// the control points' size; normalising divides that by the lengths of velocity and offset cross velocity.
 class TENDRIL_BIND_API BindingPoints : public BoundPoints {
  public:
+  /// \param binding  copied, which shares its arrays
   explicit BindingPoints(Binding binding) : binding_(std::move(binding)) {}
 
   std::size_t size() const override { return binding_.size(); }

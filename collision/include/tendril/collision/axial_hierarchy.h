@@ -10,8 +10,8 @@ namespace tendril::collision {
 /// pose costs the bounds of at most some hundred slabs of the curve-pairs, whatever the size of the mesh;
 /// boxes are made from these where a query comes, and only cells of at most 64 triangles that it enters are
 /// deformed and boxed exactly. A deformed triangle lies in the hull of its three corners, so convex boxes
-/// about the corners hold all of it, and no query is ever projected onto a curve (after James and Pai 2004,
-/// Kavan and Zara 2005, for curve frames). Containment is proven (slab bounds in interval arithmetic); the
+/// about the corners hold all of it, and no query is ever projected onto a curve (after [James and Pai 2004],
+/// [Kavan and Zara 2005], for curve frames). Containment is proven (slab bounds in interval arithmetic); the
 /// boxes of triangles that a query sees are exact for the very doubles that an update of the whole mesh
 /// gives.
 ///
@@ -19,8 +19,11 @@ namespace tendril::collision {
 /// time. Memory: about 70 bytes a triangle.
 class TENDRIL_COLLISION_API AxialHierarchy {
  public:
-  /// \param triangles  of indices into the points, below 2^31 of them; degenerate ones are allowed. Else
-  /// InvalidInput
+  /// Throws InvalidInput for indices out of range, 2^31 triangles or more, and options out of range.
+  /// \param rest       the curve-pairs in their rest shapes
+  /// \param points     bound to them; not kept
+  /// \param triangles  of indices into the points; degenerate ones are allowed
+  /// \param options    see there
   AxialHierarchy(std::span<const CurvePair> rest, const BoundPoints& points,
                  std::span<const Triangle> triangles, const HierarchyOptions& options = {});
 
@@ -28,8 +31,8 @@ class TENDRIL_COLLISION_API AxialHierarchy {
   void pose(std::span<const CurvePair> posed) { cells_.pose(posed); }
   /// Deforms and boxes everything, as queries do by themselves once they have touched enough of it.
   void refit() { cells_.refit(); }
-  const HierarchyWork& work() const { return cells_.work(); }
-  std::size_t size() const { return cells_.triangle_count(); }
+  const HierarchyWork& work() const { return cells_.work(); }   ///< since the last pose
+  std::size_t size() const { return cells_.triangle_count(); }  ///< number of triangles
 
   /// Calls visit(triangle) for the triangles of which enter(box) holds, and held for every box above. enter
   /// must hold for a box about a box it holds for.

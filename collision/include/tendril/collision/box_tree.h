@@ -13,16 +13,20 @@ namespace tendril::collision {
 
 /// Closed: all x with low <= x <= high in each coordinate.
 struct Box {
-  Vec3 low, high;
+  Vec3 low;   ///< least coordinates
+  Vec3 high;  ///< largest coordinates
 
+  /// A common point, one of the boundaries included.
   bool meets(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
+  /// x lies inside or on the boundary.
   bool holds(const Vec3& x) const { return (low.array() <= x.array() && x.array() <= high.array()).all(); }
 };
 
 /// The smallest box about at least one point.
 TENDRIL_COLLISION_API Box box_of(Points points);
+/// The smallest box about two.
 TENDRIL_COLLISION_API Box join(const Box& a, const Box& b);
 
 /// Binary, balanced, one item a leaf; split at the median of the items' middles along the axis of the largest
@@ -30,6 +34,7 @@ TENDRIL_COLLISION_API Box join(const Box& a, const Box& b);
 /// parent, the right one follows the left one's subtree.
 class TENDRIL_COLLISION_API BoxTree {
  public:
+  /// Of no items.
   BoxTree() = default;
   /// O(n log n). Throws InvalidInput for a box that is not finite or has low > high.
   explicit BoxTree(std::span<const Box> items);
@@ -38,7 +43,7 @@ class TENDRIL_COLLISION_API BoxTree {
   /// another number of items or as above; then the tree is as it was.
   void refit(std::span<const Box> items);
 
-  std::size_t size() const { return order_.size(); }
+  std::size_t size() const { return order_.size(); }  ///< number of items
   /// Of all items; only where size() > 0.
   const Box& box() const { return boxes_[0]; }
 

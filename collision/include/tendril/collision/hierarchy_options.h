@@ -10,6 +10,7 @@ namespace tendril::collision {
 /// Indices of three points.
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// How an AxialHierarchy is made and used.
 struct HierarchyOptions {
   /// Slabs: twice the root of the number of cells, at least 64, at most this; a span has at least one.
   std::size_t most_slabs = 256;

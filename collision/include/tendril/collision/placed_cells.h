@@ -10,46 +10,56 @@
 /// What AxialHierarchy stands on: cells of triangles, and the boxes above and within them.
 namespace tendril::collision {
 
+/// A triangle as a query sees it.
 struct PlacedTriangle {
-  std::uint32_t index;
+  std::uint32_t index;          ///< among the triangles given
   std::array<Vec3, 3> corners;  ///< the very doubles of the updated mesh
-  Box box;
+  Box box;                      ///< of the corners, exact
 };
 
 /// Made, posed and asked as AxialHierarchy is; a node's children may be looked at once it is no cell, or
 /// opened.
 class TENDRIL_COLLISION_API PlacedCells {
  public:
-  static constexpr std::size_t kLeaf = 8, kCell = 8;  ///< triangles a leaf, leaves a cell
+  static constexpr std::size_t kLeaf = 8;  ///< triangles a leaf
+  static constexpr std::size_t kCell = 8;  ///< leaves a cell
 
   /// A box of the tree and the leaves it is about. Binary: whole cells are split by their number, then
   /// leaves.
   struct Node {
-    std::size_t box, meta, begin, end;  ///< meta: above cells, counted depth first; kNone within one
-    static constexpr std::size_t kNone = ~std::size_t{0};
-    std::size_t size() const { return end - begin; }
-    bool leaf() const { return size() == 1; }
-    bool cell() const { return meta != kNone && size() <= kCell; }
+    std::size_t box;    ///< its index
+    std::size_t meta;   ///< index among the nodes above cells, counted depth first; kNone within a cell
+    std::size_t begin;  ///< first leaf
+    std::size_t end;    ///< behind the last leaf
+    static constexpr std::size_t kNone = ~std::size_t{0};           ///< no index
+    std::size_t size() const { return end - begin; }                ///< in leaves
+    bool leaf() const { return size() == 1; }                       ///< holds triangles
+    bool cell() const { return meta != kNone && size() <= kCell; }  ///< is deformed as a whole
+    /// Leaves of the left child.
     std::size_t half() const {
       return size() > kCell ? kCell * (((size() + kCell - 1) / kCell) / 2) : size() / 2;
     }
+    /// First child.
     Node left() const { return {box + 1, size() > kCell ? meta + 1 : kNone, begin, begin + half()}; }
+    /// Second child.
     Node right() const {
       return {box + 2 * half(), size() > kCell ? meta + 2 * (half() / kCell) : kNone, begin + half(), end};
     }
   };
 
+  /// As AxialHierarchy.
   PlacedCells(std::span<const CurvePair> rest, const BoundPoints& points, std::span<const Triangle> triangles,
               const HierarchyOptions& options);
-  PlacedCells(PlacedCells&&) noexcept;
-  PlacedCells& operator=(PlacedCells&&) noexcept;
+  PlacedCells(PlacedCells&&) noexcept;             ///< leaves an object to be destroyed or assigned to
+  PlacedCells& operator=(PlacedCells&&) noexcept;  ///< the same
   ~PlacedCells();
 
-  void pose(std::span<const CurvePair> posed);
-  void refit();
-  const HierarchyWork& work() const;
-  std::size_t triangle_count() const { return order_.size(); }
+  void pose(std::span<const CurvePair> posed);                  ///< as AxialHierarchy::pose
+  void refit();                                                 ///< as AxialHierarchy::refit
+  const HierarchyWork& work() const;                            ///< since the last pose
+  std::size_t triangle_count() const { return order_.size(); }  ///< in all
 
+  /// The node of all triangles.
   Node root() const { return {0, 0, 0, (order_.size() + kLeaf - 1) / kLeaf}; }
   /// About all of the node's triangles in this pose.
   const Box& box(const Node& n) { return n.meta == Node::kNone || current(n.meta) ? boxes_[n.box] : make(n); }

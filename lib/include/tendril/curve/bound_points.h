@@ -10,11 +10,11 @@
 
 namespace tendril {
 
-/// One of the places that a point is bound to: a record on a curve-pair and its part in the point.
+/// One of the places that a point is bound to.
 struct BoundPlace {
-  std::uint32_t pair;
-  double weight;
-  AxialPoint record;
+  std::uint32_t pair;  ///< index of the curve-pair
+  double weight;       ///< at least 0
+  AxialPoint record;   ///< the point's coordinates there
 };
 
 /// Points that follow curve-pairs, in groups that are placed each alone: what a hierarchy needs of a bound
@@ -28,7 +28,8 @@ class TENDRIL_CORE_API PointGroups {
   virtual void pose(std::span<const CurvePair> posed) = 0;
 
   /// The points of a group in the order they were given, bit for bit where an update of all puts them.
-  /// \param out  as many as the group has
+  /// \param group  its index
+  /// \param out    as many as the group has
   virtual void place(std::size_t group, MutablePoints out) const = 0;
 };
 
@@ -47,11 +48,11 @@ class TENDRIL_CORE_API BoundPoints {
  public:
   virtual ~BoundPoints() = default;
 
-  virtual std::size_t size() const = 0;
+  virtual std::size_t size() const = 0;  ///< number of points
   /// The places of a point, p_0 first; `out` is overwritten.
   virtual void places(std::size_t point, std::vector<BoundPlace>& out) const = 0;
 
-  /// Group g are the points[begin[g], begin[g + 1]); a point may be in several.
+  /// Points in groups: group g are the points[begin[g], begin[g + 1]); a point may be in several.
   virtual std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,
                                              std::span<const std::uint32_t> points) const = 0;
 };

@@ -10,10 +10,11 @@ namespace tendril {
 ///
 /// Newton on the 3n + m new velocities and spins with a dense matrix from forward differences: 3n + m
 /// evaluations and 2/3 (3n + m)^3 operations whenever the kept one converges slowly, 2 (3n + m)^2 operations
-/// an iteration; any force and any tree, but not for many nodes. Outcome not_converged when no matrix renewed
-/// on the way helps: then a shorter step will.
+/// an iteration; any force and any tree, but not for many nodes. Outcome not_converged when no renewed matrix
+/// helps: then a shorter step will.
 class TENDRIL_CORE_API BackwardEuler : public Stepper {
  public:
+  /// \param system  kept by reference
   explicit BackwardEuler(const System& system);
   ~BackwardEuler() override;
   Evaluation advance(State& state, double h) override;

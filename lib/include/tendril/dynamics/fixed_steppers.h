@@ -9,6 +9,7 @@ namespace tendril {
 /// a comparator, not a method to use.
 class TENDRIL_CORE_API ExplicitEuler : public Stepper {
  public:
+  /// \param system  kept by reference
   explicit ExplicitEuler(const System& system);
   ~ExplicitEuler() override;
   Evaluation advance(State& state, double h) override;
@@ -20,10 +21,11 @@ class TENDRIL_CORE_API ExplicitEuler : public Stepper {
   std::unique_ptr<Implementation> self_;
 };
 
-/// The classic Runge-Kutta method (thesis 3.28 with k4 at y + h k3). Order 4, four evaluations, stable on
-/// undamped oscillations to h w = 2.82 and dissipating there, by (h w)^6 / 144 a step.
+/// The classic Runge-Kutta method ([Chan 2008] 3.28 with k4 at y + h k3). Order 4, four evaluations, stable
+/// on undamped oscillations to h w = 2.82 and dissipating there, by (h w)^6 / 144 a step.
 class TENDRIL_CORE_API ClassicRungeKutta : public Stepper {
  public:
+  /// \param system  kept by reference
   explicit ClassicRungeKutta(const System& system);
   ~ClassicRungeKutta() override;
   Evaluation advance(State& state, double h) override;
@@ -38,7 +40,7 @@ class TENDRIL_CORE_API ClassicRungeKutta : public Stepper {
 /// Velocity Verlet, kick, drift, kick. The drift moves the masses by h v, carries each director by the
 /// smallest rotation from the old tangent to the new one and turns it by h w about that: the inverse drift
 /// undoes it exactly. The connection term of the twist angle is the area on the sphere between the tangent's
-/// way and the great circle: 0 at the ends of a rod and in planar motion, O(h^3) a step elsewhere, and left
+/// path and the great circle: 0 at the ends of a rod and in planar motion, O(h^3) a step elsewhere, and left
 /// out.
 ///
 /// Where forces depend on positions only (no damping, no drag, no twist state) it is symplectic and
@@ -50,6 +52,7 @@ class TENDRIL_CORE_API ClassicRungeKutta : public Stepper {
 /// free flight at h w = 0.26, 1e-4 at 0.13.
 class TENDRIL_CORE_API VelocityVerlet : public Stepper {
  public:
+  /// \param system  kept by reference
   explicit VelocityVerlet(const System& system);
   ~VelocityVerlet() override;
   Evaluation advance(State& state, double h) override;

@@ -8,7 +8,15 @@
 namespace tendril {
 
 /// The methods a run can be told to use.
-enum class Method { cash_karp, rodas, automatic, verlet, runge_kutta4, explicit_euler, backward_euler };
+enum class Method {
+  cash_karp,       ///< cash_karp.h, its steps chosen
+  rodas,           ///< rodas.h, its steps chosen
+  automatic,       ///< Cash-Karp or RODAS as the scene's stiffness asks, changing in both directions
+  verlet,          ///< VelocityVerlet, steps of the size given
+  runge_kutta4,    ///< ClassicRungeKutta, steps of the size given
+  explicit_euler,  ///< ExplicitEuler, steps of the size given
+  backward_euler   ///< BackwardEuler, steps of the size given
+};
 
 /// The largest steps h at which a method amplifies no motion x'' + (alpha + beta w^2) x' + w^2 x = 0.
 /// Infinite where there is no such step; 0 where every step amplifies.
@@ -17,35 +25,42 @@ struct StabilityLimits {
   double decay;        ///< of h (alpha + beta w^2), where damping overwhelms the oscillation
 };
 
-/// What a method decides on the way: nothing (its steps are of a size given), its steps by an estimate of
-/// their error, or which method goes on as well.
-enum class Chooses { nothing, steps, method };
+/// What a method decides during a run.
+enum class Chooses {
+  nothing,  ///< its steps are of a size given
+  steps,    ///< its steps, by an estimate of their error
+  method    ///< its steps, and which method takes them
+};
 
 /// A row of the table of methods. The row of a method that chooses methods is that of the one it begins with.
 struct MethodInfo {
-  Method method;
+  Method method;     ///< which
   const char* name;  ///< as in scene files
   int stages;  ///< evaluations a step at least: Verlet needs a second one where forces depend on velocities
   int order;   ///< the error at a given time goes with the step to this power
-  StabilityLimits stability;
-  bool stiff;  ///< damps what it does not resolve, at any step
-  Chooses chooses;
+  StabilityLimits stability;                               ///< of its steps
+  bool stiff;                                              ///< damps what it does not resolve, at any step
+  Chooses chooses;                                         ///< what it decides
   std::unique_ptr<Stepper> (*make)(const System& system);  ///< the system is kept by reference
 };
 
 /// The table, a row per method in the order of the enumeration. A new method of the library is a stepper, an
 /// enumerator above and its row; whoever offers methods to choose from goes through the rows.
 TENDRIL_CORE_API std::span<const MethodInfo> methods();
+/// The row of a method.
 TENDRIL_CORE_API const MethodInfo& info(Method method);
 /// The row of that name; nullptr where none has it.
 TENDRIL_CORE_API const MethodInfo* find_method(std::string_view name);
 
+/// Its name, as in scene files.
 TENDRIL_CORE_API const char* to_string(Method method);
 
 /// True for the methods that estimate their error and choose their steps by it.
 TENDRIL_CORE_API bool chooses_steps(Method method);
 
-/// A stepper for the method. \param system  kept by reference
+/// A stepper for the method.
+/// \param method  one that chooses methods: the stepper it begins with
+/// \param system  kept by reference
 TENDRIL_CORE_API std::unique_ptr<Stepper> make_stepper(Method method, const System& system);
 
 }  // namespace tendril
