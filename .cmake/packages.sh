@@ -3,7 +3,7 @@
 #   . .cmake/packages.sh; need_packages "${core_packages[@]}" ...
 core_packages=(g++ cmake ninja-build ccache libeigen3-dev)
 bind_packages=(libcgal-dev)
-test_packages=(libgtest-dev libopenmesh-dev libboost-dev libgmp-dev)
+test_packages=(libgtest-dev libopenmesh-dev libboost-dev libgmp-dev doxygen)
 runner_packages=(libcli11-dev nlohmann-json3-dev libvalijson-dev libembree-dev libpng-dev)
 
 as_root() {
