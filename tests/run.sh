@@ -4,6 +4,8 @@
 #   tests/run.sh --long       the long ones too
 #   tests/run.sh --sanitize   in a build with the address and undefined-behaviour sanitizers
 #   tests/run.sh --thread     the programs that use threads, in a build with the thread sanitizer
+#   tests/run.sh --shared     with shared libraries
+#   tests/run.sh --clang      with clang, which must be there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=release
@@ -13,8 +15,9 @@ for argument in "$@"; do
   case $argument in
     --long) labels='^(short|long)$' ;;
     --sanitize) preset=sanitize ;;
+    --shared | --clang) preset=${argument#--} ;;
     --thread) preset=thread labels='^threads$' targets=(--target threads) ;;
-    *) sed -n '2,6s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,8s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 
