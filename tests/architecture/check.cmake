@@ -109,7 +109,8 @@ function(layer_of file out)
 endfunction()
 
 # What an include line points to, in the words of layers.txt: tendril headers lose their prefix, a quoted path becomes
-# the layer of the file it names (beside the including file, or under its component's src/).
+# the layer of the file it names (beside the including file, under its component's src/, or in lib/src/base, whose headers
+# serve the sources of all components).
 function(target_of file quote path out)
   set(target ${path})
   if(quote STREQUAL "\"")
@@ -117,7 +118,11 @@ function(target_of file quote path out)
     cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE relative)
     string(REGEX MATCH "^[^/]+" top ${relative})
     set(target "")
-    foreach(base ${here} ${ROOT}/${top}/src)
+    set(bases ${here} ${ROOT}/${top}/src)
+    if(path MATCHES "^base/")
+      list(APPEND bases ${ROOT}/lib/src)
+    endif()
+    foreach(base IN LISTS bases)
       cmake_path(APPEND base ${path} OUTPUT_VARIABLE candidate)
       cmake_path(NORMAL_PATH candidate)
       if(NOT target AND EXISTS ${candidate})

@@ -68,6 +68,7 @@ breach(lib/src/dynamics/vector/x.h "#include \"dynamics/rhs/y.h\"\n" "layer 'dyn
 breach(lib/src/dynamics/statics/x.h "#include \"dynamics/rhs/y.h\"\n#include \"dynamics/integrate/z.h\"\n"
   "x.h:2: layer 'dynamics/statics' includes dynamics/integrate/z.h")
 breach(bind/src/mesh/x.h "#include \"place/y.h\"\n" "layer 'bind/mesh' includes place/y.h")
+breach(bind/src/mesh/x.h "#include \"curve/b_detail.h\"\n" "layer 'bind/mesh' includes curve/b_detail.h")
 breach(lib/src/strange/x.h "#pragma once\n" "x.h:1: no layer of layers.txt stands in this folder")
 string(REPEAT "//\n" 111 long_text)
 breach(lib/include/tendril/base/a.h "${long_text}" "public header of 114 lines")

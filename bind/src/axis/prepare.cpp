@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "mesh/disjoint_sets.h"
 
 namespace tendril::axis {
 namespace {
@@ -15,24 +16,6 @@ using bind::PolygonMesh;
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double kLargest = 1e100;  // distances are squared, and areas of them
-
-/// Sets of numbers that grow together; each is known by its smallest.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct Soup {
   std::vector<Vec3> points;
@@ -76,18 +59,18 @@ void drop_isolated_points(Soup& soup) {
 /// Leaves the faces joined by points that have the largest area together.
 /// \return  number of other parts
 std::size_t keep_largest_part(Soup& soup) {
-  Sets parts(soup.points.size());
+  bind::DisjointSets parts(soup.points.size());
   for (const auto& [a, b, c] : soup.faces) {
     parts.join(a, b);
     parts.join(b, c);
   }
   std::map<std::uint32_t, double> area;
   for (const auto& [a, b, c] : soup.faces)
-    area[parts.find(a)] += (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]).norm();
+    area[parts.root(a)] += (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]).norm();
   if (area.empty()) return 0;
   const auto largest = std::max_element(area.begin(), area.end(),
                                         [](const auto& x, const auto& y) { return x.second < y.second; });
-  std::erase_if(soup.faces, [&](const Triangle& face) { return parts.find(face[0]) != largest->first; });
+  std::erase_if(soup.faces, [&](const Triangle& face) { return parts.root(face[0]) != largest->first; });
   return area.size() - 1;
 }
 
@@ -115,7 +98,7 @@ const DirectedEdge* find(const std::vector<DirectedEdge>& edges, std::uint32_t f
 /// \return  number of points that had several
 std::size_t split_points(Soup& soup) {
   const std::vector<DirectedEdge> edges = directed_edges(soup);
-  Sets fans(3 * soup.faces.size());
+  bind::DisjointSets fans(3 * soup.faces.size());
   const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
   for (const DirectedEdge& e : edges) {
     const DirectedEdge* other = find(edges, e.to, e.from);
@@ -128,7 +111,7 @@ std::size_t split_points(Soup& soup) {
   std::vector<bool> split(soup.points.size(), false);
   for (std::uint32_t corner = 0; corner < 3 * soup.faces.size(); ++corner) {
     std::uint32_t& point = soup.faces[corner / 3][corner % 3];
-    const std::uint32_t fan = fans.find(corner);
+    const std::uint32_t fan = fans.root(corner);
     if (first[point] == 0xffffffff) first[point] = fan;
     if (first[point] == fan) continue;
     split[point] = true;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "disjoint_sets.h"
+
 namespace tendril::bind {
 namespace {
 
@@ -15,27 +17,6 @@ Ids all_ids(std::size_t count) {
   std::iota(ids.begin(), ids.end(), 0U);
   return ids;
 }
-
-/// Disjoint sets with path halving; the smaller id is the root, so the result does not depend on the order of
-/// joins.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(all_ids(count)) {}
-
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  bool is_root(std::uint32_t i) const { return parent_[i] == i; }
-
- private:
-  Ids parent_;
-};
 
 // ---- points and faces one by one
 

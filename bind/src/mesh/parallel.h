@@ -1,11 +1,18 @@
 #pragma once
 
+#include <tendril/base/error.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace tendril::bind {
+
+inline void require_threads(int threads) {
+  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
+}
 
 /// Runs body(begin, end) over [0, count) in `threads` contiguous parts of at least `least` each. What a part
 /// writes must depend on its own indices only: then the result is the same for any number of threads. An

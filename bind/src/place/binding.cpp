@@ -15,7 +15,7 @@ constexpr double kLargest = 1e150;  // the projection squares coordinates
 constexpr double kInPlane = 3e-16;  // of the points' size: w of a normal projection is rounding, and left out
 
 void check(Points points, int threads) {
-  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
+  require_threads(threads);
   if (points.size() > 0x7fffffff)
     throw InvalidInput("points", std::to_string(points.size()) + " of them", "fewer than 2^31");
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -15,7 +15,7 @@ constexpr std::size_t kPart = 16 * kMomentChunk;  // slots that one partial sum 
 void check(Points forces, std::size_t expected, int threads) {
   if (forces.size() != expected)
     throw InvalidInput("forces", std::to_string(forces.size()) + " of them", std::to_string(expected));
-  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
+  require_threads(threads);
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (!is_finite(forces[i]))
       throw InvalidInput("forces[" + std::to_string(i) + "]", "not finite", "three finite numbers");

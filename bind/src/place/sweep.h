@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "base/plain_vector.h"
 #include "records.h"
 #include "spans.h"
 #include "vector_units.h"
@@ -14,7 +15,7 @@
 /// contracted, so a point has the same bits whatever vector unit it went through, and alone.
 namespace tendril::bind {
 
-#define TENDRIL_INLINE inline __attribute__((always_inline))
+using lanes::Triple;
 
 /// Where the loops compute the frame themselves; all else is left to the second pass.
 template <class T>
@@ -37,30 +38,6 @@ struct Limits<float> {
 /// As wide as the number, so that a loop over numbers handles it in the same lanes.
 template <class T>
 using Flag = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
-template <class T>
-struct Triple {
-  T x, y, z;
-};
-template <class T>
-TENDRIL_INLINE T dot(const Triple<T>& a, const Triple<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-TENDRIL_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class T>
-TENDRIL_INLINE Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class T>
-TENDRIL_INLINE Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class T>
-TENDRIL_INLINE Triple<T> operator*(T s, const Triple<T>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
 template <class T>
 TENDRIL_INLINE Triple<T> term(const std::array<std::array<T, 3>, kMostTerms>& c, int j) {
   const auto& row = c[static_cast<std::size_t>(j)];

@@ -14,10 +14,6 @@ void require(const char* what, std::size_t given, std::size_t expected) {
     throw InvalidInput(what, std::to_string(given) + " points", std::to_string(expected));
 }
 
-void require_threads(int threads) {
-  if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
-}
-
 template <class T>
 ColumnsView<T> view(const Columns<T>& out, std::size_t size) {
   require("out.x", out.x.size(), size);

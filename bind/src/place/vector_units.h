@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "base/vector_loops.h"
+
 /// Loops compiled for several vector units, of which a run takes the widest that the machine has. Results do
 /// not depend on which.
 #if defined(__GNUC__) && defined(__x86_64__)
@@ -16,12 +18,6 @@
 #define TENDRIL_UNIT_512
 #endif
 #define TENDRIL_UNIT_PLAIN
-
-#if defined(__clang__)
-#define TENDRIL_LOOP _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define TENDRIL_LOOP _Pragma("GCC ivdep")
-#endif
 
 namespace tendril::bind {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "vector_loops.h"
 
@@ -8,26 +9,33 @@
 namespace tendril::lanes {
 
 /// Three numbers in registers.
-struct V3 {
-  double x, y, z;
+template <class T>
+struct Triple {
+  T x, y, z;
 };
+using V3 = Triple<double>;
 
-TENDRIL_INLINE V3 operator+(const V3& a, const V3& b) {
+template <class T>
+TENDRIL_INLINE Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-TENDRIL_INLINE V3 operator-(const V3& a, const V3& b) {
+template <class T>
+TENDRIL_INLINE Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-TENDRIL_INLINE V3 operator*(double s, const V3& a) {
+template <class T>
+TENDRIL_INLINE Triple<T> operator*(std::type_identity_t<T> s, const Triple<T>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-TENDRIL_INLINE double dot(const V3& a, const V3& b) {
+template <class T>
+TENDRIL_INLINE T dot(const Triple<T>& a, const Triple<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 TENDRIL_INLINE double norm(const V3& a) {
   return std::sqrt(dot(a, a));
 }
-TENDRIL_INLINE V3 cross(const V3& a, const V3& b) {
+template <class T>
+TENDRIL_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 TENDRIL_INLINE double larger(double a, double b) {

@@ -3,20 +3,9 @@
 #include <numeric>
 
 namespace tendril {
-namespace {
-
-/// Per node, the number of its rod.
-std::vector<std::size_t> rod_of_nodes(const Model& model) {
-  std::vector<std::size_t> rod(model.nodes);
-  for (std::size_t r = 0; r < model.rods.size(); ++r)
-    for (std::size_t i = 0; i < model.rods[r].count; ++i) rod[model.rods[r].first + i] = r;
-  return rod;
-}
-
-}  // namespace
 
 FreeBodies::FreeBodies(const Model& model, const std::vector<std::size_t>& node) {
-  const std::vector<std::size_t> rod = rod_of_nodes(model);
+  const std::vector<std::size_t> rod = model.rods_of_nodes();
   // The body of a rod is that of its parent's, which comes before it in the order.
   std::vector<std::size_t> body(model.rods.size());
   std::iota(body.begin(), body.end(), std::size_t{0});

@@ -196,11 +196,15 @@ void Model::add_joints() {
   }
 }
 
+std::vector<std::size_t> Model::rods_of_nodes() const {
+  std::vector<std::size_t> rod;
+  for (std::size_t r = 0; r < rods.size(); ++r) rod.insert(rod.end(), rods[r].count, r);
+  return rod;
+}
+
 void Model::sort_rods() {
   // Breadth first from the rods without a parent; what is not reached lies on a cycle.
-  std::vector<std::size_t> rod_of(nodes);
-  for (std::size_t r = 0; r < rods.size(); ++r)
-    std::fill_n(rod_of.begin() + static_cast<std::ptrdiff_t>(rods[r].first), rods[r].count, r);
+  const std::vector<std::size_t> rod_of = rods_of_nodes();
   std::vector<std::vector<std::size_t>> children(rods.size());
   for (std::size_t r = 0; r < rods.size(); ++r) {
     if (const Ride* ride = ride_of(r))

@@ -98,6 +98,9 @@ struct System::Model {
     return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }
 
+  /// Per node, the number of its rod.
+  std::vector<std::size_t> rods_of_nodes() const;
+
   // Where the parts of y begin.
   Eigen::Index v_begin() const { return 3 * static_cast<Eigen::Index>(nodes); }
   Eigen::Index theta_begin() const { return 6 * static_cast<Eigen::Index>(nodes); }
