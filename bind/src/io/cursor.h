@@ -191,7 +191,7 @@ inline bool TextCursor::line_done() {
 }
 
 /// Takes a token of at most 18 digits that make a whole number up to 2^53, with a sign and a point at most:
-/// exact, or rounded once (Clinger 1990), where the machine rounds to nearest. Leaves all others.
+/// exact, or rounded once [Clinger 1990], where the machine rounds to nearest. Leaves all others.
 inline bool TextCursor::take_short_number(double& value) {
   static constexpr std::array<double, 19> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
                                                  1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};

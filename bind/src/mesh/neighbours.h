@@ -21,8 +21,8 @@ struct Neighbours {
 };
 
 /// Lowers a function on the points of a mesh to the largest below it that grows along no edge by more than
-/// allowed, by Dijkstra's algorithm. The bound holds for every edge, so splitting the edges does not change
-/// it.
+/// allowed, by Dijkstra's algorithm [Dijkstra 1959]. The bound holds for every edge, so splitting the edges
+/// does not change it.
 ///
 /// \param value  of a point: a reference to the function there
 ///

@@ -8,7 +8,7 @@
 namespace tendril {
 
 /// Indices of the points in such an order that neighbours in it are mostly neighbours in space: by cell of a
-/// grid over their box, the cells along Morton's curve. Finite points. O(n).
+/// grid over their box, the cells along Morton's curve [Morton 1966]. Finite points. O(n).
 std::vector<std::uint32_t> spatial_order(Points points);
 
 }  // namespace tendril

@@ -16,7 +16,8 @@ void check(const char* what, double size) {
     throw InvalidInput(what, std::to_string(size), "a positive length");
 }
 
-/// Saint-Venant: J = a b^3 (1/3 - 64/pi^5 (b/a) sum over odd k of tanh(k pi a / 2b) / k^5), a >= b.
+/// Saint-Venant's torsion of a rectangle [Timoshenko and Goodier 1970], a >= b:
+/// J = a b^3 (1/3 - 64/pi^5 (b/a) sum over odd k of tanh(k pi a / 2b) / k^5).
 double rectangle_torsion(double a, double b) {
   if (a < b) std::swap(a, b);
   double sum = 0.0;

@@ -246,7 +246,8 @@ bool StaticNewton::leave(StaticState& at) {
   return true;
 }
 
-/// Newton's method with the test of natural monotony: the next step by the same tangent must be shorter.
+/// Newton's method with the test of natural monotonicity [Deuflhard 2004]: the next step by the same tangent
+/// must be shorter.
 StaticNewton::Outcome StaticNewton::contract(StaticState& at) {
   double before = INFINITY;
   int slow = 0;

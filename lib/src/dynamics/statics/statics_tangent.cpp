@@ -13,7 +13,7 @@ constexpr double kSoft = 1e-13;      // of a pivot, over its diagonal entry
 constexpr int kIterations = 200;     // of the power of the inverse
 constexpr double kSettled = 1e-12;   // change of the eigenvalue at which they end
 
-/// Numbers in [-1, 1) without a pattern, the same everywhere (SplitMix64).
+/// Numbers in [-1, 1) without a pattern, the same everywhere [Steele et al. 2014].
 Eigen::VectorXd scattered(Eigen::Index size) {
   Eigen::VectorXd v(size);
   std::uint64_t state = 1;

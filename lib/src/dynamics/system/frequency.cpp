@@ -94,8 +94,8 @@ Eigen::VectorXd start_vector(Eigen::Index size) {
   return x.normalized();
 }
 
-/// Largest |eigenvalue| of Lanczos's tridiagonal matrix, plus the residual of its vector: how far beyond it
-/// the true value may lie.
+/// Largest |eigenvalue| of Lanczos's tridiagonal matrix [Lanczos 1950], plus the residual of its vector: how
+/// far beyond it the true value may lie.
 double largest_ritz_value(const std::vector<double>& diagonal, const std::vector<double>& beside) {
   const auto k = static_cast<Eigen::Index>(diagonal.size());
   const Eigen::Map<const Eigen::VectorXd> d(diagonal.data(), k);
