@@ -37,12 +37,13 @@ struct Site {
 ///
 ///   1 - |p - c| / tau = min over t of (|c(t) - p|^2 - |c - p|^2) / |D|^2
 ///
-/// is 0 on the cut locus and continuous where c is. It is compared with `band`. Two branches of the axis a
-/// small |D| apart meet at the bisecting plane of c and c(t), at the distance (|c(t) - p|^2 - |c - p|^2) /
-/// (2 |D|) of p: for those, recognised by an arc between them of many times |D|, or by belonging to different
-/// curves, that distance is compared with band scale instead, by dividing by 2 scale / |D| in addition.
+/// is 0 on the cut locus and continuous where c is. It is compared with `band`. Two branches of the axis, a
+/// small |D| apart, exchange the nearest point across the bisecting plane of c and c(t), from which p is
+/// (|c(t) - p|^2 - |c - p|^2) / (2 |D|) away; that distance is to be compared with band scale, so for them
+/// the term is divided by 2 scale / |D| as well. Branches are told by the arc between c and c(t): the divisor
+/// is the arc over 2 |D|, but at least 1 and at most 2 scale / |D|; for another curve it is the latter.
 /// Before c jumps to a point close by on the same branch, the distance has a flat maximum between the two
-/// that neither term sees: see flatness().
+/// that no term sees: see flatness().
 ///
 /// Distances to a curve are multiplied by its factor throughout. `band` is that of BindOptions.
 class SoftAxis {

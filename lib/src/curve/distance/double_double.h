@@ -9,9 +9,9 @@ namespace tendril {
 ///
 /// Errors, u = 2^-53, |low| <= u |high|. sum() is exact ([Knuth 1997] 4.2.2). In a + b two numbers of at most
 /// u (|a| + |b|) each are added with roundings: 3 u^2 (|a| + |b|), relative to the sizes, not to the sum,
-/// which may cancel. In a b the product of the lows is left out, u^2, and the cross terms are rounded: u^2
-/// and 2 u^2 in their sum, with a product and 3 u^2 on adding the error of a.high b.high, which fma gives
-/// exactly; in all below 8 u^2 |a b| = 2^-103 |a b|. `unit_of` is 2^-102 for each.
+/// which may cancel. In a b the product of the lows is left out, u^2 |a b|; the two cross terms are rounded,
+/// u^2 each, and their sum, 2 u^2; and its sum with the error of a.high b.high, which fma gives exactly, 3
+/// u^2: in all 8 u^2 |a b| = 2^-103 |a b|. `unit_of` is 2^-102 for each.
 struct DoubleDouble {
   double high = 0.0, low = 0.0;
 

@@ -13,8 +13,8 @@
 /// small correction by a polynomial in z = x^2: x + x z P(z) for the odd ones, 1 + w P(w) for the even ones.
 /// P is fitted at the Chebyshev nodes of the interval given. The error given is the largest over it of the
 /// whole function against its power series in 50 digits, with the coefficients as the doubles they are:
-/// always below 2^-54, half an ulp of 1. Rounding in P enters with the size of the correction, so that the
-/// last sum decides: about an ulp in all.
+/// always below 2^-54, a quarter of an ulp of 1. Rounding in P enters with the size of the correction, so
+/// that the last sum decides: about an ulp in all.
 namespace tendril::lanes {
 
 /// Nearest whole number, for |x| < 2^51 and rounding to nearest.
