@@ -42,8 +42,7 @@ Shape core(const Shape& s) {
 
 Relation rounded(const Predicates& signs, const Shape& a, const Shape& b) {
   const Relation cores = look_up(signs, core(a), core(b));
-  const bool round = a.radius > 0.0 || b.radius > 0.0;
-  if (!round) return cores;
+  if (compare(a.radius, 0.0) == 0 && compare(b.radius, 0.0) == 0) return cores;
   if (cores != Relation::free) return Relation::hit;
   const Points p = points_of(a), q = points_of(b);
   int order = signs.ordinary() ? compare_distance<Bounded>(p, q, a.radius, b.radius) : kUnknown;
@@ -55,7 +54,7 @@ Relation rounded(const Predicates& signs, const Shape& a, const Shape& b) {
 
 Range range_of(const Shape& s) {
   const Range radius = range_of(s.radius);
-  if (s.radius < 0.0) return Range::not_finite;
+  if (compare(s.radius, 0.0) < 0) return Range::not_finite;
   return std::max(radius, range_of({Points(s.points)}));
 }
 
