@@ -25,7 +25,7 @@ Relation segment_segment(const Predicates& signs, const Shape& a, const Shape& b
 Relation segment_triangle(const Predicates& signs, const Shape& a, const Shape& b);
 Relation triangle_triangle(const Predicates& signs, const Shape& a, const Shape& b);
 
-/// Two triangles, proper or not (Guigue and Devillers 2003), undecidable where all corners of one lie in the
+/// Two triangles, proper or not [Guigue and Devillers 2003], undecidable where all corners of one lie in the
 /// plane of the other, as those of any do in the plane of an improper one.
 Relation across(const Predicates& signs, const Triangle& a, const Triangle& b);
 

@@ -159,7 +159,7 @@ Inside Surface::inside(const Vec3& point) const {
   return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
 }
 
-/// Solid angles by van Oosterom and Strackee (1983).
+/// Solid angles by [van Oosterom and Strackee 1983].
 double Surface::winding_about(const Vec3& point) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {

@@ -14,6 +14,7 @@ struct Meeting {
   std::uint32_t other;     ///< of the other surface; 0 for a shape
   Relation relation;       ///< touching or hit
 
+  /// By the triangle, then the other.
   friend auto operator<=>(const Meeting&, const Meeting&) = default;
 };
 
@@ -22,12 +23,13 @@ struct Inside {
   /// hit within, touching on the surface, free outside; undecidable: open, or not finite.
   Answer answer;
   /// Times that the surface goes round the point: a whole number where it is closed (meaningful where its
-  /// triangles are oriented alike); the generalised winding number (Jacobson, Kavan and Sorkine-Hornung
-  /// 2013), rounded, where it is open: about 1 within what it nearly encloses, about 0 outside. 0 for a point
-  /// on the surface.
+  /// triangles are oriented alike); the generalised winding number [Jacobson et al. 2013],
+  /// rounded, where it is open: about 1 within what it nearly encloses, about 0 outside. 0 for a point on the
+  /// surface.
   double winding = 0.0;
 };
 
+/// The triangle of a surface that is nearest to a shape.
 struct Nearest {
   Distance distance;           ///< on_b is on the surface
   std::uint32_t triangle = 0;  ///< the first with the least upper bound
@@ -37,17 +39,21 @@ struct Nearest {
 /// triangles looked at one by one.
 class TENDRIL_EXACT_API Surface {
  public:
+  /// \param points   no triangle need use them all
   /// \param corners  three indices into the points for each triangle
   /// Throws InvalidInput for points that are not finite, indices out of range, and a number of them not
   /// divisible by 3.
   Surface(Points points, std::span<const std::uint32_t> corners);
 
-  /// The same triangles elsewhere, O(n). Throws InvalidInput for another number of points or as above; then
-  /// nothing changed.
+  /// The same triangles elsewhere: O(n) where no triangle's neighbour is one by place alone, else O(n log n).
+  /// Throws InvalidInput for another number of points or as above; then nothing changed.
   void refit(Points points);
 
+  /// The number of triangles.
   std::size_t size() const { return corners_.size() / 3; }
+  /// As it is now; i < size().
   Triangle triangle(std::size_t i) const;
+  /// The boxes of the triangles.
   const collision::BoxTree& tree() const { return tree_; }
 
   /// Every edge belongs to an even number of triangles, where points that coincide are one: then each point
@@ -62,7 +68,7 @@ class TENDRIL_EXACT_API Surface {
   std::vector<Meeting> meetings(const Surface& other) const;
 
   /// By the parity of crossings of a vertical ray, moved aside by less than any number where it meets an edge
-  /// (Edelsbrunner and Muecke 1990); exact. Open surfaces: O(n).
+  /// [Edelsbrunner and Muecke 1990]; exact. Open surfaces: O(n).
   Inside inside(const Vec3& point) const;
 
   /// A ball, or a point for radius 0, with the surface and all that it encloses: undecidable(open) where the
