@@ -234,6 +234,10 @@ TEST(Surface, IsClosedByPlaceNotByIndexAndWhenRefit) {
   m.points[0].x() -= 1e-9;
   s.refit(m.points);
   EXPECT_FALSE(s.closed());
+  // Triangles that are lines or points take nothing from it.
+  m = cube(1);
+  for (const std::uint32_t c : {0, 0, 1, 2, 2, 2}) m.corners.push_back(c);
+  EXPECT_TRUE(m.surface().closed());
   // Twice the same triangle closes nothing in, and an edge of four triangles is even.
   EXPECT_TRUE(Surface(m.points, std::vector<std::uint32_t>{0, 1, 2, 2, 1, 0}).closed());
   EXPECT_FALSE(Surface(m.points, std::vector<std::uint32_t>{0, 1, 2}).closed());

@@ -40,17 +40,20 @@ inline TrianglePair shifted_grid_pair(Random& random) {
   return p;
 }
 
-/// In a plane to the last bit: level, upright or slanted.
+/// In a plane to the last bit: level, upright or slanted. Every other pair has a corner on an edge, rounded.
 inline TrianglePair coplanar_pair(Random& random) {
   TrianglePair p;
   const int plane = random.integer(4);
+  const bool near = random.integer(2) == 0;
   for (std::size_t i = 0; i < 6; ++i) {
-    const double x = 0x1p-20 * random.integer(1 << 20), y = 0x1p-20 * random.integer(1 << 20);
+    double x = 0x1p-20 * random.integer(1 << 20), y = 0x1p-20 * random.integer(1 << 20);
+    if (plane < 3 && near) x = random.uniform(), y = random.uniform();
     p[i] = plane == 0   ? Vec3(x, y, 0.25)
            : plane == 1 ? Vec3(0.5, x, y)
            : plane == 2 ? Vec3(y, -1, x)
                         : Vec3(x, y, x + 2 * y);
   }
+  if (plane < 3 && near) p.b[0] = p.a[0] + random.uniform() * (p.a[1] - p.a[0]);
   return p;
 }
 
