@@ -61,8 +61,8 @@ inline Shape capsule(const Segment& s, double radius) {
 /// numbers that are not finite and negative radii. Any finite numbers will do, the largest and denormal ones
 /// too, which cost more.
 ///
-/// Static filters in doubles first [Shewchuk 1997], then integers of 192 bits, then numbers of any length; two
-/// triangles by [Guigue and Devillers 2003]. Radii are compared as squares, exactly: no root is taken.
+/// Static filters in doubles first [Shewchuk 1997], then integers of 192 bits, then numbers of any length;
+/// two triangles by [Guigue and Devillers 2003]. Radii are compared as squares, exactly: no root is taken.
 TENDRIL_EXACT_API Answer relation(const Shape& a, const Shape& b);
 
 /// The same of two triangles, without the detour over shapes.
