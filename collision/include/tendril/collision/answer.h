@@ -22,6 +22,7 @@ enum class Reason {
   open,        ///< the inside was asked of a surface that has a border
   degenerate,  ///< the question has no answer: there is nothing to ask about (an empty surface)
   unbounded,   ///< the motion is not bounded by what is known of it
+  rounding,    ///< closer than doubles can tell, of tests in doubles alone: tendril::exact decides
 };
 
 /// A relation, and why there is none.
