@@ -25,7 +25,7 @@ if [ "${1:-}" = --check ]; then
 fi
 
 . .cmake/packages.sh
-need_packages "${core_packages[@]}" "${test_packages[@]}"
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}"
 first=${1:-1}
 last=${2:-1000000}
 copy=build/mutants/tree
@@ -35,11 +35,12 @@ mkdir -p "$copy"
 # With the present time: what an earlier run has built is older, and built again.
 git ls-files -z | xargs -0 tar c | tar xm -C "$copy"
 
-make_tests() { cmake --build "$build" --target accuracy_test dynamics_test guard_test statics_test >build/mutants/build.log 2>&1; }
+programs=(accuracy_test dynamics_test guard_test statics_test box_tree_test triangles_test shapes_test surface_test hostile_test)
+make_tests() { cmake --build "$build" --target "${programs[@]}" >build/mutants/build.log 2>&1; }
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_BIND=OFF \
   -DTENDRIL_EXAMPLES=OFF -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
 make_tests
-for program in accuracy_test dynamics_test guard_test statics_test; do
+for program in "${programs[@]}"; do
   "$build/bin/$program" >build/mutants/test.log 2>&1 || { echo "$program fails without any mutant" >&2; exit 2; }
 done
 

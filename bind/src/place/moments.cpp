@@ -13,8 +13,15 @@ struct Pulled {
   Triple<double> z, d;
 };
 
-/// With X, Y, Z the frame: what turns X is g_x = u f + v (f x Z), what turns Z is g_z = w f + v (X x f); the
-/// parts across X and Z, over the lengths, act on x = d cross z and on z.
+/// The point is c + u X + v Y + w Z with z = c', x = d x z, X = x / |x|, Z = z / |z|, Y = Z x X. Under a
+/// change of z and d the force f does the work
+///
+///   f . (u dX + v (dZ x X + Z x dX) + w dZ) = g_x . dX + g_z . dZ,
+///   g_x = u f + v (f x Z),   g_z = w f + v (X x f),
+///
+/// by the cyclic symmetry of the triple product. Of a unit vector, dX = (dx - X (X . dx)) / |x|, so with h_x
+/// the part of g_x across X over |x|, and h_z likewise, the work is h_x . dx + h_z . dz. At last dx = dd x z
+/// + d x dz: z x h_x is the force on d, and h_z + h_x x d that on z.
 template <int P>
 TENDRIL_INLINE Pulled pull(const Piece<double>& piece, double s, double u, double v, double w,
                            const Triple<double>& f) {

@@ -56,7 +56,8 @@ Span make_span(std::uint32_t pair, const KnotVector& knots, int index) {
   Span span{
       pair, static_cast<std::uint32_t>(at - p), knots.degree(), 0.5 * (knot[0] + knot[1]), knot[1] - knot[0],
       {}};
-  // Cox and de Boor on polynomials: functions[j] is N_{at - d + j, d}.
+  // The recurrence of Cox and de Boor on polynomials in s: functions[j] is N_{at - d + j, d}, and each of its
+  // factors (right - t) / width, (t - left) / width is linear in s, as t = middle + length s.
   std::array<Polynomial, kMostTerms> functions{};
   functions[0][0] = 1.0;
   for (std::size_t d = 1; d <= p; ++d) {

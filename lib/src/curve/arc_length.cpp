@@ -32,6 +32,12 @@ double gauss_length(const BSpline& curve, double a, double b) {
   return half * sum;
 }
 
+/// The ten-point rule is exact to degree 19; |c'|, the root of a polynomial of degree 2 p - 2, is analytic
+/// but where the speed vanishes, so halving a cell divides the error of the rule by up to 2^20 away from
+/// there, and the difference of a cell and its two halves exceeds the error of the halves. Next to a
+/// point of zero speed |c'| has a kink, and cells shrink towards it until they contribute less than the
+/// tolerance.
+///
 /// Splits spans into cells; `cell(b, length)` is called for each in order, with its right end.
 template <class Cell>
 class Adaptive {

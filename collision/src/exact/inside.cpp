@@ -1,0 +1,57 @@
+#include "exact/inside.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace tendril::exact {
+
+namespace {
+
+/// The turn a, b, x as seen along z. Moved by (e, e^2), x adds e (a_y - b_y) + e^2 (b_x - a_x) to the turn's
+/// determinant.
+int turn_of_moved(const Predicates& signs, const Vec3& a, const Vec3& b, const Vec3& x) {
+  if (const int turn = signs.turn(2, a, b, x)) return turn;
+  if (const int first = compare(a.y(), b.y())) return first;
+  return compare(b.x(), a.x());
+}
+
+}  // namespace
+
+bool edges_are_even(std::span<const std::uint32_t> corners) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(corners[i + k], corners[i + (k + 1) % 3]);
+      if (a != b) edges.emplace_back(a, b);
+    }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    if (i + 1 == edges.size() || edges[i] != edges[i + 1]) return false;
+  return true;
+}
+
+std::vector<std::uint32_t> with_coincident_as_one(Points points, std::span<const std::uint32_t> corners) {
+  std::vector<std::uint32_t> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const int c = compare(points[a], points[b]);
+    return c != 0 ? c < 0 : a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && compare(points[order[i - 1]], points[order[i]]) == 0;
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  std::vector<std::uint32_t> out;
+  for (const std::uint32_t c : corners) out.push_back(first[c]);
+  return out;
+}
+
+int crossing_above(const Predicates& signs, const Triangle& t, const Vec3& x) {
+  const int turn = turn_of_moved(signs, t[0], t[1], x);
+  if (turn == 0 || turn_of_moved(signs, t[1], t[2], x) != turn || turn_of_moved(signs, t[2], t[0], x) != turn)
+    return 0;
+  return signs.side(t[0], t[1], t[2], x) == -turn ? turn : 0;
+}
+
+}  // namespace tendril::exact

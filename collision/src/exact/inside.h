@@ -1,0 +1,30 @@
+#pragma once
+
+#include <tendril/collision/box_tree.h>
+#include <tendril/exact/shape.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "exact/predicates.h"
+
+namespace tendril::exact {
+
+/// Each pair of different corners, whichever way round, is an edge of an even number of triangles.
+bool edges_are_even(std::span<const std::uint32_t> corners);
+
+/// The corners with the first of all points at the same place in each one's stead.
+std::vector<std::uint32_t> with_coincident_as_one(Points points, std::span<const std::uint32_t> corners);
+
+/// Boxes that a ray from the point along z may meet, or that hold the point.
+inline bool above_or_in(const collision::Box& box, const Vec3& x) {
+  return box.low.x() <= x.x() && x.x() <= box.high.x() && box.low.y() <= x.y() && x.y() <= box.high.y() &&
+         x.z() <= box.high.z();
+}
+
+/// 1 where the ray from x along z leaves through the triangle's front, -1 where it enters there, 0 where it
+/// passes by; for x not on the triangle. x counts as moved by (e, e^2, 0) with e > 0 less than any number, so
+/// that no ray meets an edge.
+int crossing_above(const Predicates& signs, const Triangle& t, const Vec3& x);
+
+}  // namespace tendril::exact

@@ -1,0 +1,200 @@
+#include <tendril/base/error.h>
+#include <tendril/exact/surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "exact/crossing.h"
+#include "exact/inside.h"
+#include "exact/narrow.h"
+
+namespace tendril::exact {
+
+using collision::Box;
+
+namespace {
+
+Box moved_out(const Box& box, double radius) {
+  const auto margin = [radius](double x) {
+    return (std::abs(x) + radius) * 4 * kEps + std::numeric_limits<double>::min();
+  };
+  Box out = box;
+  for (int k = 0; k < 3; ++k) {
+    out.low[k] = box.low[k] - radius - margin(box.low[k]);
+    out.high[k] = box.high[k] + radius + margin(box.high[k]);
+  }
+  return out;
+}
+
+Box box_about(const Shape& shape) {
+  const Box box = collision::box_of(points_of(shape));
+  return compare(shape.radius, 0.0) > 0 ? moved_out(box, shape.radius) : box;
+}
+
+/// Never above the distance of anything in the two boxes. The norm where no square leaves the range of
+/// doubles, else one coordinate's gap.
+double boxes_apart(const Box& a, const Box& b) {
+  const Vec3 gap = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0);
+  const double most = gap.maxCoeff();
+  const bool plain = most > 0x1p-400 && most < 0x1p400;
+  return (plain ? gap.norm() : most) * (1 - 16 * kEps);
+}
+
+void check(Points points, std::span<const std::uint32_t> corners) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (range_of({points.subspan(i, 1)}) == Range::not_finite)
+      throw InvalidInput("Surface: points[" + std::to_string(i) + "]", "not finite", "finite coordinates");
+  if (corners.size() % 3 != 0)
+    throw InvalidInput("Surface: corners", std::to_string(corners.size()) + " of them",
+                       "three for each triangle");
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i] >= points.size())
+      throw InvalidInput("Surface: corners[" + std::to_string(i) + "]", std::to_string(corners[i]),
+                         "an index below " + std::to_string(points.size()));
+}
+
+bool ordinary(Points points) {
+  return points.empty() || range_of({points}) == Range::ordinary;
+}
+
+Range larger(bool ordinary, Range range) {
+  return ordinary ? range : std::max(range, Range::extreme);
+}
+
+}  // namespace
+
+Surface::Surface(Points points, std::span<const std::uint32_t> corners)
+    : points_(points.begin(), points.end()), corners_(corners.begin(), corners.end()) {
+  check(points, corners);
+  tree_ = collision::BoxTree(boxes(points));
+  ordinary_ = ordinary(points);
+  closed_by_index_ = edges_are_even(corners_);
+  closed_ = closed_by_index_ || edges_are_even(with_coincident_as_one(points_, corners_));
+}
+
+void Surface::refit(Points points) {
+  if (points.size() != points_.size())
+    throw InvalidInput("Surface: points", std::to_string(points.size()),
+                       std::to_string(points_.size()) + " as before");
+  check(points, {});
+  tree_.refit(boxes(points));
+  points_.assign(points.begin(), points.end());
+  ordinary_ = ordinary(points);
+  closed_ = closed_by_index_ || edges_are_even(with_coincident_as_one(points_, corners_));
+}
+
+Triangle Surface::triangle(std::size_t i) const {
+  return {points_[corners_[3 * i]], points_[corners_[3 * i + 1]], points_[corners_[3 * i + 2]]};
+}
+
+std::vector<Box> Surface::boxes(Points points) const {
+  std::vector<Box> out;
+  out.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    out.push_back(collision::box_of(
+        std::array{points[corners_[3 * i]], points[corners_[3 * i + 1]], points[corners_[3 * i + 2]]}));
+  return out;
+}
+
+Answer Surface::relation(const Shape& shape) const {
+  const Range range = larger(ordinary_, range_of(shape));
+  if (range == Range::not_finite) return undecidable(Reason::not_finite);
+  const Shape query = reduced(Predicates(range), shape);
+  const Box box = box_about(query);
+  Relation most = Relation::free;
+  tree_.descend([&](const Box& b) { return most != Relation::hit && b.meets(box); },
+                [&](std::size_t i) {
+                  most = std::max(most, exact::relation(range, query, exact::triangle(triangle(i))));
+                });
+  return {most};
+}
+
+std::vector<Meeting> Surface::meetings(const Shape& shape) const {
+  std::vector<Meeting> out;
+  const Range range = larger(ordinary_, range_of(shape));
+  if (range == Range::not_finite) return out;
+  const Box box = box_about(shape);
+  tree_.descend([&](const Box& b) { return b.meets(box); },
+                [&](std::size_t i) {
+                  const Relation r = exact::relation(range, shape, exact::triangle(triangle(i)));
+                  if (r != Relation::free) out.push_back({static_cast<std::uint32_t>(i), 0, r});
+                });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<Meeting> Surface::meetings(const Surface& other) const {
+  std::vector<Meeting> out;
+  const Range range = ordinary_ && other.ordinary_ ? Range::ordinary : Range::extreme;
+  tree_.pairs(other.tree_, [&](std::size_t i, std::size_t j) {
+    const Relation r = exact::relation(range, triangle(i), other.triangle(j));
+    if (r != Relation::free) out.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), r});
+  });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Inside Surface::inside(const Vec3& point) const {
+  const Range range = larger(ordinary_, range_of({Points(&point, 1)}));
+  if (range == Range::not_finite) return {undecidable(Reason::not_finite)};
+  const Predicates signs(range);
+  const Shape query = exact::point(point);
+  bool touching = false;
+  int crossed = 0, winding = 0;
+  tree_.descend([&](const Box& b) { return !touching && above_or_in(b, point); },
+                [&](std::size_t i) {
+                  const Triangle t = triangle(i);
+                  touching = collision::box_of(t).holds(point) &&
+                             exact::relation(range, query, exact::triangle(t)) != Relation::free;
+                  const int crossing = touching ? 0 : crossing_above(signs, t, point);
+                  crossed += crossing != 0;
+                  winding += crossing;
+                });
+  if (touching) return {collision::kTouching};
+  if (!closed_) return {undecidable(Reason::open), winding_about(point)};
+  return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
+}
+
+/// Solid angles by [van Oosterom and Strackee 1983].
+double Surface::winding_about(const Vec3& point) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Triangle t = triangle(i);
+    const Vec3 a = (t[0] - point).stableNormalized(), b = (t[1] - point).stableNormalized(),
+               c = (t[2] - point).stableNormalized();
+    sum += std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+  }
+  return sum / (2 * std::numbers::pi);
+}
+
+Answer Surface::solid_relation(const Vec3& centre, double radius) const {
+  const Answer surface = relation(ball(centre, radius));
+  if (surface.relation == Relation::hit || surface.relation == Relation::undecidable) return surface;
+  const Answer at_centre = inside(centre).answer;
+  return at_centre.relation == Relation::free ? surface : at_centre;
+}
+
+Nearest Surface::nearest(const Shape& shape) const {
+  Nearest best;
+  best.distance.lower = best.distance.upper = std::numeric_limits<double>::infinity();
+  best.distance.answer = undecidable(size() == 0 ? Reason::degenerate : Reason::not_finite);
+  if (range_of(shape) == Range::not_finite || size() == 0) return best;
+  const Box box = box_about(shape);
+  bool found = false;
+  tree_.nearest([&](const Box& b) { return boxes_apart(b, box); }, [&] { return best.distance.upper; },
+                [&](std::size_t item) {
+                  const auto i = static_cast<std::uint32_t>(item);
+                  const Distance d = distance(shape, exact::triangle(triangle(i)));
+                  const bool nearer =
+                      d.upper < best.distance.upper || (d.upper == best.distance.upper && i < best.triangle);
+                  if (!found || nearer) best = {d, i};
+                  found = true;
+                });
+  return best;
+}
+
+}  // namespace tendril::exact
