@@ -8,6 +8,6 @@ cd "$(dirname "$0")/../.."
 need_packages "${core_packages[@]}" "${test_packages[@]}" nlohmann-json3-dev \
   libsundials-dev libsuitesparse-dev libmujoco-dev
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENDRIL_BENCH=ON -DTENDRIL_BIND=OFF \
-  -DTENDRIL_EXAMPLES=OFF -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
+  -DTENDRIL_EXAMPLES=OFF -DTENDRIL_SCENE=OFF -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
 cmake --build build/bench --target dynamics_bench
 exec build/bench/bin/dynamics_bench "$@"

@@ -10,7 +10,7 @@ runs=${1:-10000000}
 need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" clang libclang-rt-14-dev
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_CXX_FLAGS="-O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all" \
-  -DTENDRIL_FUZZ=ON -DTENDRIL_TESTS=ON -DTENDRIL_EXAMPLES=OFF -DTENDRIL_AXIS=OFF -Wno-dev >/dev/null
+  -DTENDRIL_FUZZ=ON -DTENDRIL_TESTS=ON -DTENDRIL_EXAMPLES=OFF -DTENDRIL_SCENE=OFF -DTENDRIL_AXIS=OFF -Wno-dev >/dev/null
 cmake --build build/fuzz --target import_fuzz
 mkdir -p build/fuzz/corpus
 cp tests/examples/box.off build/fuzz/corpus/

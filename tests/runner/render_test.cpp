@@ -11,10 +11,10 @@ using runner::CameraFit;
 using runner::Drawing;
 using runner::Picture;
 using runner::Strand;
-using runner::ViewOptions;
+using scene::ViewOptions;
 
 ViewOptions small_view() {
-  ViewOptions view;
+  scene::ViewOptions view;
   view.width = 80;
   view.height = 60;
   view.samples = 4;
@@ -28,7 +28,7 @@ int brightness(Picture& picture, int x, int y) {
 
 struct Scene {
   bind::PolygonMesh mesh = bind::parse_off(tube_off(), "tube");
-  ViewOptions view = small_view();
+  scene::ViewOptions view = small_view();
   Camera camera() const {
     CameraFit fit(view);
     fit.include(mesh.points);

@@ -165,7 +165,7 @@ TEST(Certification, AsksForTwoMethodsThatAgree) {
 
 TEST(Certification, ExtrapolatesBackwardEulerFarBelowItsError) {
   const Folder folder;
-  const runner::SceneFile file = runner::read_scene(folder.write("scene.json", small_scene()));
+  const scene::SceneFile file = scene::read_scene(folder.write("scene.json", small_scene()));
   const System system(file.scene);
   const runner::Study study(file, system);
   const auto run = runner::extrapolated_run(study, 60.0);

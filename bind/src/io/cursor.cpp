@@ -1,22 +1,13 @@
 #include "cursor.h"
 
 #include <tendril/base/error.h>
+#include <tendril/base/number.h>
 
 #include <array>
 #include <cfenv>
 #include <charconv>
 
 namespace tendril::bind {
-namespace {
-
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return std::string(text.data(), end);
-}
-
-}  // namespace
-
 std::string quoted(std::string_view bytes) {
   constexpr std::size_t longest = 40;
   std::string text = "'";

@@ -17,7 +17,7 @@ namespace {
 struct Options {
   std::string mesh, out, picture;
   axis::AxisOptions find;
-  ViewOptions view;
+  scene::ViewOptions view;
   int threads = 0;
   bool json = false;
 };

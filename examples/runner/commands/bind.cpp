@@ -1,6 +1,6 @@
 #include "commands.h"
 #include "draw/drawing.h"
-#include "read/curve_reader.h"
+#include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
@@ -92,7 +92,7 @@ void color_by_stretch(bind::PolygonMesh& mesh, Points rest) {
 }
 
 Picture picture_of(const bind::PolygonMesh& mesh, const std::vector<CurvePair>& axes, int threads) {
-  const ViewOptions view;
+  const scene::ViewOptions view;
   CameraFit fit(view);
   fit.include(mesh.points);
   for (const CurvePair& pair : axes) fit.include(pair.primary().control_points());

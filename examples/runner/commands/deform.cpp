@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "read/curve_reader.h"
+#include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
@@ -23,9 +23,10 @@ struct Options {
 Axes axes_of(const Options& options) {
   if (!options.equal_length) return read_axes({options.axis}, {options.pose}, "the same, or --equal-length");
   Axes axes;
-  const std::vector<CurveFile> rest = read_curves(options.axis);
-  for (const CurveFile& curve : rest) axes.rest.push_back(curve.pair);
-  for (const CurveFile& curve : read_curves(options.pose, rest)) axes.posed.push_back(curve.pair);
+  const std::vector<scene::CurveFile> rest = scene::read_curves(options.axis);
+  for (const scene::CurveFile& curve : rest) axes.rest.push_back(curve.pair);
+  for (const scene::CurveFile& curve : scene::read_curves(options.pose, rest))
+    axes.posed.push_back(curve.pair);
   return axes;
 }
 

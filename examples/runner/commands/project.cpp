@@ -1,10 +1,10 @@
 #include "commands.h"
 #include "read/csv_reader.h"
-#include "read/curve_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/curve/axial.h>
 #include <tendril/curve/closest_point.h>
+#include <tendril/scene/curve_file.h>
 
 #include <iostream>
 
@@ -67,7 +67,7 @@ void print_row(const Found& found) {
 }
 
 int project(const Options& options) {
-  const CurveFile curve = read_curve(options.curve);
+  const scene::CurveFile curve = scene::read_curve(options.curve);
   const std::vector<Vec3> points = read_points_csv(options.points);
   const std::vector<Projection> nearest = CurveProjector(curve.pair.primary()).nearest(points);
   OrderedJson list = OrderedJson::array();

@@ -1,10 +1,10 @@
 #include "commands.h"
 #include "draw/drawing.h"
-#include "read/curve_reader.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
+#include <tendril/scene/curve_file.h>
 
 #include <charconv>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 struct Options {
   std::string mesh, out, axis, size = "960x720", view = "35,12", up = "y";
-  int samples = ViewOptions{}.samples;
+  int samples = scene::ViewOptions{}.samples;
   int threads = 0;
   bool json = false;
 };
@@ -45,8 +45,8 @@ Vec3 read_up(const std::string& name) {
   return found->second;
 }
 
-ViewOptions read_view(const Options& options) {
-  ViewOptions view;
+scene::ViewOptions read_view(const Options& options) {
+  scene::ViewOptions view;
   view.up = read_up(options.up);
   const auto angles = two<double>("--view", options.view, ',', "yaw,pitch in degrees");
   if (!(std::abs(angles.first) <= 1e6) || !(std::abs(angles.second) <= 89.0)) {
@@ -68,14 +68,14 @@ ViewOptions read_view(const Options& options) {
 }
 
 int render(const Options& options) {
-  const ViewOptions view = read_view(options);
+  const scene::ViewOptions view = read_view(options);
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   CameraFit fit(view);
   fit.include(mesh.points);
   Drawing drawing{&mesh, {}, {}};
   if (!options.axis.empty()) {
-    const CurveFile curve = read_curve(options.axis);
+    const scene::CurveFile curve = scene::read_curve(options.axis);
     fit.include(curve.pair.primary().control_points());
     drawing.over = axis_strands(curve.pair, curve.masses, 0.002 * fit.camera().size);
   }

@@ -1,6 +1,6 @@
 #include "commands.h"
-#include "read/scene_reader.h"
 #include "study/output.h"
+#include "write/folder.h"
 #include "write/interrupt.h"
 #include "write/progress.h"
 
@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 
 namespace tendril::runner {
@@ -64,22 +63,14 @@ Plan plan_for(const Options& options) {
 }
 
 /// The scene ready to run; whatever is wrong with it has been refused.
-System system_of(const SceneFile& file) {
+System system_of(const scene::SceneFile& file) {
+  System system = scene::make_system(file);
   try {
-    System system(file.scene);
     const Simulation simulation(system, system.rest_state(), file.options);
-    return system;
   } catch (const InvalidInput& error) {
-    throw in_scene(file, error);
+    throw scene::in_scene(file, error);
   }
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw FileError(folder, error ? error.message() : "it is not a folder");
-  }
+  return system;
 }
 
 Results carry_out_with_progress(Study& study, const Plan& plan) {
@@ -100,7 +91,7 @@ Results carry_out_with_progress(Study& study, const Plan& plan) {
 
 int report(const Options& options) {
   const Interrupt interrupt;
-  const SceneFile file = read_scene(options.scene);
+  const scene::SceneFile file = scene::read_scene(options.scene);
   const System system = system_of(file);
   const Plan plan = plan_for(options);
   make_folder(options.out);

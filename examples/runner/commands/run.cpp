@@ -1,16 +1,14 @@
 #include "commands.h"
 #include "read/mesh_reader.h"
-#include "read/scene_binding.h"
+#include "write/folder.h"
 #include "write/interrupt.h"
-#include "write/json_output.h"
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
-#include "write/summary.h"
 
 #include <tendril/base/file.h>
+#include <tendril/scene/summary.h>
 
-#include <filesystem>
 #include <iostream>
 
 namespace tendril::runner {
@@ -23,68 +21,34 @@ struct Options {
        json = false;
 };
 
-SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
+std::optional<bind::BindMode> mode_of(const Options& options) {
+  if (options.continuous && options.nearest)
+    throw InvalidInput("--nearest", "with --continuous", "one of the two");
+  if (options.continuous) return bind::BindMode::continuous;
+  if (options.nearest) return bind::BindMode::nearest;
+  return std::nullopt;
+}
+
+scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
-  SceneFile file = read_scene(options.scene);
+  scene::SceneFile file = scene::read_scene(options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
-  if (!file.mesh.empty()) mesh = read_mesh(file.mesh);
-  if (!file.mesh.empty() && mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
+  mesh = read_mesh(file);
   return file;
 }
 
-/// A scene ready to run. Whatever is wrong with the input has been refused when it stands.
-struct Prepared {
-  Phases phases;
-  bind::PolygonMesh mesh;
-  SceneFile file;
-  System system;
-  Simulation simulation;
-  std::optional<bind::Binding> binding;
-
-  Prepared(const Options& options, int threads)
-      : file(read_all(options, mesh, phases)),
-        system(file.scene),
-        simulation(system, system.rest_state(), file.options) {
-    if (file.mesh.empty()) return;
-    const Phases::Timer timer(phases, Phases::bind);
-    const bind::BindMode mode = mode_of(file, options.continuous, options.nearest);
-    binding.emplace(bind_scene(file, mesh, mode, threads));
-  }
-};
-
-std::unique_ptr<Prepared> prepare(const Options& options, int threads) {
-  try {
-    return std::make_unique<Prepared>(options, threads);
-  } catch (const InvalidInput& error) {
-    // The library speaks of the scene's parts by their numbers; readers have named the file already.
-    for (const char* part : {"rods", "joints", "anchors", "forces"}) {
-      if (error.place().rfind(part, 0) == 0) throw in_scene(read_scene(options.scene), error);
-    }
-    throw;
-  }
+Report simulate(scene::SceneRun& scene, Recorder& recorder, Progress& progress) {
+  return scene.run([&](const scene::Snapshot& snapshot) { recorder.take(snapshot, scene.mesh()); },
+                   [&](double part) {
+                     progress.show("simulating", part);
+                     return !Interrupt::requested();
+                   });
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw FileError(folder, error ? error.message() : "it is not a folder");
-  }
-}
-
-Report simulate(Prepared& scene, Recorder& recorder, Progress& progress) {
-  const Phases::Timer timer(scene.phases, Phases::simulate);
-  scene.simulation.add(recorder, Simulation::When::output);
-  scene.simulation.on_progress([&](double time) {
-    progress.show("simulating", time / scene.file.duration);
-    return !Interrupt::requested();
-  });
-  return scene.simulation.run(scene.file.duration, scene.file.outputs);
-}
-
-void draw_pictures(Prepared& scene, Recorder& recorder, Report& report, int threads, Progress& progress) {
-  const Phases::Timer timer(scene.phases, Phases::draw);
-  const bool drawn = draw_run(scene.file, scene.mesh, recorder, threads, [&](double part) {
+void draw_pictures(const scene::SceneRun& scene, Recorder& recorder, Report& report, int threads,
+                   Phases& phases, Progress& progress) {
+  const Phases::Timer timer(phases, Phases::draw);
+  const bool drawn = draw_run(scene, recorder, threads, [&](double part) {
     progress.show("drawing", part);
     return !Interrupt::requested();
   });
@@ -93,13 +57,14 @@ void draw_pictures(Prepared& scene, Recorder& recorder, Report& report, int thre
   report.reason = "cancelled while drawing";
 }
 
-void tell(const Options& options, const OrderedJson& summary, const Report& report) {
+void tell(const Options& options, const std::string& summary, const scene::SceneRun& scene,
+          const Phases& phases, const Report& report) {
   if (options.json) {
-    print(summary);
+    std::cout << summary << '\n';
   } else {
     std::cout << tendril::to_string(report.stop) << ": time " << report.time << ", " << report.accepted
               << " steps (and " << report.rejected << " rejected), " << report.evaluations << " evaluations, "
-              << summary["outputs"] << " outputs, " << summary["wall_s"]["total"].get<double>() << " s\n"
+              << scene.outputs() << " outputs, " << phases.total() << " s\n"
               << options.out << '\n';
   }
   if (report.stop != Stop::finished) {
@@ -110,22 +75,23 @@ void tell(const Options& options, const OrderedJson& summary, const Report& repo
 int run(const Options& options) {
   const Interrupt interrupt;
   const int threads = thread_count(options.threads);
-  const std::unique_ptr<Prepared> scene = prepare(options, threads);
+  Phases phases;
+  bind::PolygonMesh mesh;
+  scene::SceneFile file = read_all(options, mesh, phases);
+  scene::SceneRun scene(std::move(file), std::move(mesh), {.mode = mode_of(options), .threads = threads});
   make_folder(options.out);
 
   Progress progress;
-  const bind::Binding* binding = scene->binding ? &*scene->binding : nullptr;
-  Recorder recorder(scene->file, scene->system, scene->simulation, scene->mesh, binding,
-                    {options.out, !options.no_frames, options.double_precision, threads}, scene->phases);
-  Report report = simulate(*scene, recorder, progress);
+  Recorder recorder(scene.file(), {options.out, !options.no_frames, options.double_precision}, phases);
+  Report report = simulate(scene, recorder, progress);
   recorder.write_trajectory();
-  if (!options.no_pictures && recorder.outputs() > 0 && report.stop != Stop::cancelled) {
-    draw_pictures(*scene, recorder, report, threads, progress);
+  if (!options.no_pictures && recorder.taken() > 0 && report.stop != Stop::cancelled) {
+    draw_pictures(scene, recorder, report, threads, phases, progress);
   }
-  OrderedJson summary = summarize(scene->file, scene->system, scene->mesh, binding, report, recorder);
-  summary["wall_s"] = wall_seconds(scene->phases);
-  write_file_whole(options.out + "/summary.json", summary.dump(2) + "\n");
-  tell(options, summary, report);
+  phases.take(scene.seconds());
+  const std::string summary = scene::summary_json(scene, report, {recorder.files(), phases.named()});
+  write_file_whole(options.out + "/summary.json", summary + "\n");
+  tell(options, summary, scene, phases, report);
   return report.stop == Stop::finished ? kDone : kNoSuccess;
 }
 

@@ -1,18 +1,16 @@
 #include "commands.h"
 #include "read/mesh_reader.h"
-#include "read/scene_binding.h"
+#include "write/folder.h"
 #include "write/interrupt.h"
 #include "write/json_output.h"
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
-#include "write/summary.h"
 
 #include <tendril/base/file.h>
 #include <tendril/dynamics/statics.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 namespace tendril::runner {
@@ -25,28 +23,17 @@ struct Options {
   bool nearest = false, no_pictures = false, double_precision = false, json = false;
 };
 
-SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
+scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
-  SceneFile file = read_scene(options.scene);
+  scene::SceneFile file = scene::read_scene(options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
   if (options.out.empty()) file.mesh.clear();
-  if (!file.mesh.empty()) mesh = read_mesh(file.mesh);
-  if (!file.mesh.empty() && mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
+  mesh = read_mesh(file);
   return file;
 }
 
-System system_of(const SceneFile& file) {
-  try {
-    System system(file.scene);
-    const State rest = system.rest_state();
-    return system;
-  } catch (const InvalidInput& error) {
-    throw in_scene(file, error);
-  }
-}
-
 /// Where anchors move, they are followed to the end of the scene's duration.
-StaticsOptions search_options(const Options& options, const SceneFile& file) {
+StaticsOptions search_options(const Options& options, const scene::SceneFile& file) {
   StaticsOptions out = options.statics;
   const auto& anchors = file.scene.anchors;
   const bool moves =
@@ -64,7 +51,14 @@ OrderedJson to_json(const Stability& stability) {
           {"threshold", stability.threshold}};
 }
 
-OrderedJson summarize(const SceneFile& file, const System& system, const Equilibrium& found) {
+OrderedJson wall_seconds(const Phases& phases) {
+  OrderedJson out;
+  for (const auto& [phase, seconds] : phases.named()) out[phase] = seconds;
+  out["total"] = phases.total();
+  return out;
+}
+
+OrderedJson summarize(const scene::SceneFile& file, const System& system, const Equilibrium& found) {
   OrderedJson out;
   out["status"] = tendril::to_string(found.balance);
   out["reason"] = found.reason;
@@ -83,7 +77,7 @@ OrderedJson summarize(const SceneFile& file, const System& system, const Equilib
   out["steps"] = found.steps;
   out["iterations"] = found.iterations;
   out["factorisations"] = found.factorisations;
-  out["units"] = file.units;
+  out["units"] = file.units.empty() ? OrderedJson() : OrderedJson(file.units);
   out["curve_pairs"] = file.names;
   out["masses"] = system.node_count();
   out["twist_states"] = system.twist_count();
@@ -91,34 +85,21 @@ OrderedJson summarize(const SceneFile& file, const System& system, const Equilib
   return out;
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw FileError(folder, error ? error.message() : "it is not a folder");
-  }
-}
-
 /// The masses, the mesh and pictures of the state found. \return  the names of the files
-std::vector<std::string> write_state(const Options& options, SceneFile& file, const System& system,
-                                     const State& state, bind::PolygonMesh& mesh, Phases& phases) {
-  const int threads = thread_count(options.threads);
-  const Simulation simulation(system, state, file.options);
-  std::optional<bind::Binding> binding;
-  if (!file.mesh.empty()) {
-    const Phases::Timer timer(phases, Phases::bind);
-    binding.emplace(bind_scene(file, mesh, mode_of(file, false, false), threads));
-  }
+std::vector<std::string> write_state(const Options& options, scene::SceneFile file, const State& state,
+                                     bind::PolygonMesh mesh, Phases& phases) {
   file.outputs = {state.time};
   file.panels = 1;
-  Recorder recorder(file, system, simulation, mesh, binding ? &*binding : nullptr,
-                    {options.out, true, options.double_precision, threads}, phases);
-  recorder.follow(state.time, simulation.pairs());
+  const int threads = thread_count(options.threads);
+  scene::SceneRun run(std::move(file), std::move(mesh), {.start = state, .threads = threads});
+  Recorder recorder(run.file(), {options.out, true, options.double_precision}, phases);
+  recorder.take(run.snapshot(), run.mesh());
   recorder.write_trajectory();
   if (!options.no_pictures) {
     const Phases::Timer timer(phases, Phases::draw);
-    draw_run(file, mesh, recorder, threads, [](double) { return !Interrupt::requested(); });
+    draw_run(run, recorder, threads, [](double) { return !Interrupt::requested(); });
   }
+  phases.take(run.seconds());
   return recorder.files();
 }
 
@@ -142,8 +123,8 @@ int statics(const Options& options) {
   const Interrupt interrupt;
   Phases phases;
   bind::PolygonMesh mesh;
-  SceneFile file = read_all(options, mesh, phases);
-  const System system = system_of(file);
+  const scene::SceneFile file = read_all(options, mesh, phases);
+  const System system = scene::make_system(file);
   StaticsOptions search = search_options(options, file);
   if (!options.out.empty()) make_folder(options.out);
   Equilibrium found;
@@ -158,7 +139,7 @@ int statics(const Options& options) {
   }
   OrderedJson summary = summarize(file, system, found);
   if (!options.out.empty()) {
-    summary["files"] = write_state(options, file, system, found.state, mesh, phases);
+    summary["files"] = write_state(options, file, found.state, std::move(mesh), phases);
     summary["wall_s"] = wall_seconds(phases);
     write_file_whole(options.out + "/summary.json", summary.dump(2) + "\n");
   }

@@ -18,7 +18,7 @@ double radians(double degrees) {
 
 }  // namespace
 
-CameraFit::CameraFit(const ViewOptions& view) : ground_up_(view.up.stableNormalized()) {
+CameraFit::CameraFit(const scene::ViewOptions& view) : ground_up_(view.up.stableNormalized()) {
   // At yaw 0 the world's x (or y, when x is up) points to the right.
   const Vec3 side = std::abs(ground_up_.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 level = (side - side.dot(ground_up_) * ground_up_).normalized();

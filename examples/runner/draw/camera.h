@@ -1,6 +1,6 @@
 #pragma once
 
-#include "draw/view.h"
+#include <tendril/scene/view.h>
 
 #include <array>
 
@@ -21,7 +21,7 @@ struct Camera {
 /// view's direction allows with a margin on every side. The ground goes under the lowest point.
 class CameraFit {
  public:
-  explicit CameraFit(const ViewOptions& view);
+  explicit CameraFit(const scene::ViewOptions& view);
   void include(Points points);
   Camera camera() const;
 

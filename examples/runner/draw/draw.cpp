@@ -53,7 +53,7 @@ Axes across(const Vec3f& z) {
 
 class Tracer {
  public:
-  Tracer(const Drawing& drawing, const Camera& camera, const ViewOptions& view)
+  Tracer(const Drawing& drawing, const Camera& camera, const scene::ViewOptions& view)
       : solid_(drawing.mesh, drawing.solid, camera.centre, camera.size),
         over_(nullptr, drawing.over, camera.centre, camera.size),
         has_over_(!drawing.over.empty()),
@@ -148,7 +148,7 @@ class Tracer {
 
   RayScene solid_, over_;
   bool has_over_;
-  ViewOptions view_;
+  scene::ViewOptions view_;
   Vec3f eye_, right_, up_, forward_, ground_up_;
   float ground_;
   Vec3f sun_;
@@ -175,7 +175,7 @@ void draw_row(const Tracer& tracer, Picture& picture, int y) {
 
 }  // namespace
 
-Picture draw(const Drawing& drawing, const Camera& camera, const ViewOptions& view, int threads) {
+Picture draw(const Drawing& drawing, const Camera& camera, const scene::ViewOptions& view, int threads) {
   const Tracer tracer(drawing, camera, view);
   Picture picture(view.width, view.height);
   std::atomic<int> next{0};

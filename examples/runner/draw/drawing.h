@@ -35,6 +35,6 @@ Strand rod_strand(const CurvePair& pair, std::span<const double> parameters, std
 /// Ray-traced without a display: a sun with soft shadow, light from the sky with ambient occlusion, a ground
 /// that only catches shadows. Each pixel's samples come from a hash of its place, so the picture is the same
 /// for any number of threads.
-Picture draw(const Drawing& drawing, const Camera& camera, const ViewOptions& view, int threads);
+Picture draw(const Drawing& drawing, const Camera& camera, const scene::ViewOptions& view, int threads);
 
 }  // namespace tendril::runner

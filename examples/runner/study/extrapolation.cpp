@@ -38,7 +38,7 @@ std::vector<Track> next_row(Track run, const std::vector<Track>& above) {
 }
 
 /// A step that divides the time between outputs.
-double first_step(const SceneFile& file) {
+double first_step(const scene::SceneFile& file) {
   const double stretch = file.outputs.size() > 1 ? file.outputs[1] - file.outputs[0] : file.duration;
   return stretch / std::ceil(stretch * kFirstSteps / file.duration);
 }

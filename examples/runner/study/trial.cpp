@@ -56,7 +56,7 @@ class Pacer {
   double last_ = cpu_seconds();
 };
 
-SimulationOptions options_for(const SceneFile& file, const Setting& setting, bool patient) {
+SimulationOptions options_for(const scene::SceneFile& file, const Setting& setting, bool patient) {
   SimulationOptions options = file.options;
   options.method = setting.method;
   options.fixed_step.reset();

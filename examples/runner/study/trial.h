@@ -1,6 +1,6 @@
 #pragma once
 
-#include "read/scene_reader.h"
+#include <tendril/scene/scene_file.h>
 
 #include <functional>
 
@@ -61,7 +61,7 @@ const char* to_string(Trial::Outcome outcome);
 class Study {
  public:
   /// All kept by reference.
-  Study(const SceneFile& file, const System& system) : file_(file), system_(system) {}
+  Study(const scene::SceneFile& file, const System& system) : file_(file), system_(system) {}
 
   /// Called while a run goes on, with the part of it that is done; false ends the study by throwing
   /// Cancelled.
@@ -75,11 +75,11 @@ class Study {
   /// Largest stable step of an explicit method of fixed step at the start; 0 for the others.
   double stable_step(Method method) const;
 
-  const SceneFile& file() const { return file_; }
+  const scene::SceneFile& file() const { return file_; }
   const System& system() const { return system_; }
 
  private:
-  const SceneFile& file_;
+  const scene::SceneFile& file_;
   const System& system_;
   std::function<bool(double)> progress_;
 };

@@ -1,6 +1,5 @@
 #include "write/json_output.h"
 
-#include <charconv>
 #include <iostream>
 
 namespace tendril::runner {
@@ -11,12 +10,6 @@ OrderedJson to_json(const Vec3& v) {
 
 void print(const OrderedJson& value) {
   std::cout << value.dump(2, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
-}
-
-std::string shortest(double value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, result.ptr};
 }
 
 const char* to_string(FrameStatus status) {

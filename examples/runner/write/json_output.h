@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/number.h>
 #include <tendril/base/types.h>
 #include <tendril/curve/frames.h>
 
@@ -15,9 +16,6 @@ OrderedJson to_json(const Vec3& v);
 
 /// Writes the value and a line end to standard output.
 void print(const OrderedJson& value);
-
-/// Shortest text that reads back to the same double, whatever the locale.
-std::string shortest(double value);
 
 const char* to_string(FrameStatus status);
 

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <tendril/scene/scene_run.h>
+
 #include <array>
 #include <chrono>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace tendril::runner {
 
@@ -12,22 +18,35 @@ struct Phases {
                                                         "update", "write", "draw"};
   std::array<double, count> seconds{};
 
-  /// Adds the time from its making to its end to a phase; takes it off another one that runs around it.
+  double total() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+
+  /// Adds what a run took.
+  void take(const scene::RunSeconds& run) {
+    seconds[bind] += run.bind;
+    seconds[simulate] += run.simulate;
+    seconds[update] += run.update;
+  }
+
+  std::vector<std::pair<std::string, double>> named() const {
+    std::vector<std::pair<std::string, double>> out;
+    for (std::size_t k = 0; k < count; ++k) out.emplace_back(names[k], seconds[k]);
+    return out;
+  }
+
+  /// Adds the time from its making to its end to a phase.
   class Timer {
    public:
     Timer(Phases& phases, Phase phase) : phases_(phases), phase_(phase) {}
-    Timer(Phases& phases, Phase phase, Phase around) : phases_(phases), phase_(phase), around_(around) {}
     ~Timer() {
       const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
       phases_.seconds[phase_] += spent.count();
-      if (around_ != count) phases_.seconds[around_] -= spent.count();
     }
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
 
    private:
     Phases& phases_;
-    Phase phase_, around_ = count;
+    Phase phase_;
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   };
 };

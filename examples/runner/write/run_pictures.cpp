@@ -13,14 +13,12 @@ constexpr double kThinnest = 0.003;  // radius of a line over the size of what i
 
 class Painter {
  public:
-  Painter(const SceneFile& file, bind::PolygonMesh& mesh, const Recorder& recorder, int threads)
-      : file_(file),
-        mesh_(mesh),
-        simulation_(recorder.simulation()),
-        camera_(recorder.camera()),
-        threads_(threads) {}
+  Painter(const scene::SceneRun& run, const Camera& camera, int threads)
+      : run_(run), file_(run.file()), camera_(camera), threads_(threads) {
+    if (run.mesh() != nullptr) mesh_ = run.mesh()->mesh();
+  }
 
-  Picture paint(const Moment& moment, const ViewOptions& view) const {
+  Picture paint(const scene::Snapshot& moment, const scene::ViewOptions& view) {
     Drawing drawing;
     if (!moment.points.empty()) {
       mesh_.points = moment.points;
@@ -32,7 +30,7 @@ class Painter {
       const bool hidden = std::find(file_.bound_to.begin(), file_.bound_to.end(), r) != file_.bound_to.end();
       if (drawing.mesh == nullptr || !hidden) {
         drawing.solid.push_back(
-            rod_strand(moment.pairs[r], simulation_.parameters(r), file_.scene.rods[r].width, thin));
+            rod_strand(moment.pairs[r], run_.simulation().parameters(r), file_.scene.rods[r].width, thin));
       }
       if (file_.draw_axis) drawing.over.insert(drawing.over.end(), axis.begin(), axis.end());
     }
@@ -40,9 +38,9 @@ class Painter {
   }
 
  private:
-  const SceneFile& file_;
-  bind::PolygonMesh& mesh_;
-  const Simulation& simulation_;
+  const scene::SceneRun& run_;
+  const scene::SceneFile& file_;
+  bind::PolygonMesh mesh_;  ///< moved from moment to moment
   Camera camera_;
   int threads_;
 };
@@ -56,21 +54,22 @@ std::string caption(double time) {
 
 }  // namespace
 
-bool draw_run(const SceneFile& file, bind::PolygonMesh& mesh, Recorder& recorder, int threads,
+bool draw_run(const scene::SceneRun& run, Recorder& recorder, int threads,
               const std::function<bool(double)>& go_on) {
-  const Painter painter(file, mesh, recorder, threads);
-  ViewOptions small = file.view;
-  small.width = std::max(16, file.view.width / 2);
-  small.height = std::max(16, file.view.height / 2);
-  const auto& moments = recorder.moments();
+  const scene::ViewOptions& view = run.file().view;
+  Painter painter(run, recorder.camera(), threads);
+  scene::ViewOptions small = view;
+  small.width = std::max(16, view.width / 2);
+  small.height = std::max(16, view.height / 2);
+  const auto& moments = recorder.panels();
   std::vector<Picture> panels;
   std::vector<std::string> captions;
-  for (const Moment& moment : moments) {
+  for (const scene::Snapshot& moment : moments) {
     if (!go_on(static_cast<double>(panels.size()) / static_cast<double>(moments.size() + 2))) return false;
     panels.push_back(painter.paint(moment, small));
     captions.push_back(caption(moment.time));
   }
-  const Picture last = painter.paint(recorder.last(), file.view);
+  const Picture last = painter.paint(recorder.last(), view);
   if (!go_on(1.0)) return false;
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
   recorder.write("contact_sheet.png", png_bytes(contact_sheet(panels, captions, columns)));

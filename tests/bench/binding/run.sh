@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../../.."
 need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" nlohmann-json3-dev \
   libocct-modeling-algorithms-dev libocct-modeling-data-dev libocct-foundation-dev libsisl-dev
 bash .cmake/cgal-meshes.sh build/cgal-meshes
-cmake -S . -B build/bench_binding -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENDRIL_BENCH=ON -DTENDRIL_EXAMPLES=OFF \
+cmake -S . -B build/bench_binding -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENDRIL_BENCH=ON -DTENDRIL_EXAMPLES=OFF -DTENDRIL_SCENE=OFF \
   -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
 cmake --build build/bench_binding --target binding_bench
 exec build/bench_binding/bin/binding_bench build/cgal-meshes "$@"

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <tendril/base/export.h>
+#include <tendril/bind/binding.h>
+#include <tendril/bind/polygon_mesh.h>
+#include <tendril/scene/scene_file.h>
+
+#include <string>
+#include <vector>
+
+namespace tendril::scene {
+
+/// Continuously where the mesh follows several curve-pairs; else each vertex by its nearest point.
+TENDRIL_SCENE_API bind::BindMode default_mode(const SceneFile& file);
+
+/// The scene's mesh, or an empty one where it names none.
+/// \param notes  gets what is odd about the mesh's file but not refused; or null, and it is refused
+/// Throws FileError or InvalidInput, "mesh:line", as bind::read_mesh, and where the mesh has no points.
+TENDRIL_SCENE_API bind::PolygonMesh read_scene_mesh(const SceneFile& file,
+                                                    std::vector<std::string>* notes = nullptr);
+
+/// A mesh on the curve-pairs that its scene names: points within reach of theirs follow, the others stay.
+/// A vertex is out of reach where its distance from the curve it is bound to is beyond that curve-pair's
+/// `reach`, linear between the nodes.
+class TENDRIL_SCENE_API BoundMesh {
+ public:
+  /// Bound at rest, on the knots that a Simulation of the scene uses. Cost: that of a bind::Binding.
+  /// \param mesh     at rest; its normals are dropped, since they would not follow
+  /// \param threads  1 to 256; the same bits for any number
+  /// Throws InvalidInput that names the mesh's file.
+  BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMode mode, int threads = 1);
+
+  /// \param pairs  all curve-pairs of the scene, as Simulation::pairs gives them
+  void update(std::span<const CurvePair> pairs, int threads = 1);
+
+  /// As of the last update; at rest before the first.
+  const bind::PolygonMesh& mesh() const { return mesh_; }
+  const bind::Binding& binding() const { return binding_; }
+  /// Vertices out of reach, ascending.
+  std::span<const std::size_t> out_of_reach() const { return still_; }
+
+ private:
+  bind::PolygonMesh mesh_;
+  bind::Binding binding_;
+  std::vector<std::size_t> bound_to_;
+  std::vector<std::size_t> still_;
+  std::vector<Vec3> still_at_;
+};
+
+}  // namespace tendril::scene

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <tendril/base/export.h>
+#include <tendril/dynamics/scene.h>
+#include <tendril/dynamics/simulation.h>
+#include <tendril/dynamics/system.h>
+#include <tendril/scene/scene_error.h>
+#include <tendril/scene/view.h>
+
+#include <map>
+#include <string_view>
+
+namespace tendril::scene {
+
+/// Everything a scene file says, checked, with the library's own types filled in. All numbers are in the
+/// scene's units. May be changed before it is run.
+struct SceneFile {
+  std::string path;                          ///< as given to the reader; the name in messages
+  std::string text;                          ///< the file itself, so that errors found later can name a line
+  Scene scene;                               ///< rods in the order of `curve_pairs`
+  std::map<std::string, std::string> units;  ///< words for "length", "mass" and "time", where given
+  std::vector<std::string> names;            ///< of the curve-pairs
+  std::vector<double> thickness;             ///< of the curve-pairs: twice the largest radius
+  std::vector<std::vector<double>> reach;    ///< per curve-pair and node: how far from it a mesh follows;
+                                             ///< empty where everything does
+  std::vector<std::string> joint_places;     ///< JSON pointer of each joint of the scene,
+  std::vector<std::string> anchor_places;    ///< of each anchor (a range of nodes has one for each)
+  std::vector<std::string> force_places;     ///< and of each force
+  std::string mesh;                          ///< path relative to the working folder; empty for none
+  std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
+  SimulationOptions options;
+  double duration = 0.0;        ///< positive
+  std::vector<double> outputs;  ///< times, ascending from 0, none beyond the duration
+  ViewOptions view;             ///< how to draw it
+  int panels = 12;              ///< pictures of a contact sheet, 1 to 100
+  bool draw_axis = false;       ///< whether curve-pairs are drawn over the mesh
+};
+
+/// Reads and checks a scene file: JSON with comments, held against scene.schema.json, then beyond what a
+/// schema can say. Rods whose section varies along their points have it taken at the nodes for bending and
+/// halfway along the edges for stretch, twist and mass. The mesh is not opened.
+///
+/// Throws SceneError for what the file says, FileError when it cannot be read. O(file).
+TENDRIL_SCENE_API SceneFile read_scene(const std::string& path);
+
+/// The same of a text in memory. \param name  stands for the file: in messages, and relative to it the
+/// scene's mesh is found
+TENDRIL_SCENE_API SceneFile parse_scene(std::string_view text, const std::string& name);
+
+/// What the library says of `rods[i]`, `joints[i]`, `anchors[i]` or `forces[i]`, said of that part of the
+/// scene file; anything else is said of the file as a whole. A SceneError is passed on as it is.
+TENDRIL_SCENE_API SceneError in_scene(const SceneFile& file, const InvalidInput& error);
+
+/// The scene flattened, ready for a Simulation or a search for its equilibrium.
+/// Throws SceneError where the library refuses the scene or its rest state.
+TENDRIL_SCENE_API System make_system(const SceneFile& file);
+
+}  // namespace tendril::scene

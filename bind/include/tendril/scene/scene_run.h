@@ -1,0 +1,69 @@
+#pragma once
+
+#include <tendril/base/export.h>
+#include <tendril/dynamics/simulation.h>
+#include <tendril/scene/bound_mesh.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace tendril::scene {
+
+/// How a scene is run. What it computes, the file says.
+struct RunOptions {
+  std::optional<bind::BindMode> mode = {};  ///< default: default_mode
+  std::optional<State> start = {};          ///< default: at rest, at time 0
+  int threads = 1;  ///< of binding and updates, 1 to 256; the same bits for any number
+};
+
+/// A scene at one moment, all of it a copy. Positions are in the scene's units.
+struct Snapshot {
+  double time = 0.0;
+  std::vector<Vec3> points;                            ///< of the mesh, in its order; empty without a mesh
+  std::vector<CurvePair> pairs;                        ///< the curve-pairs
+  std::vector<std::vector<Vec3>> masses, orientation;  ///< per curve-pair and node
+};
+
+/// Seconds of wall time, outputs not counted.
+struct RunSeconds {
+  double bind = 0.0, simulate = 0.0, update = 0.0;
+};
+
+/// A scene ready to run, and run. Whatever is wrong with the input has been refused once it stands.
+class TENDRIL_SCENE_API SceneRun {
+ public:
+  /// Called at each of the scene's output times.
+  using Output = std::function<void(const Snapshot&)>;
+  /// Called after every accepted step with the part of the duration that is done; false cancels the run.
+  using Progress = std::function<bool(double part)>;
+
+  /// Reads the mesh that the scene names.
+  /// Throws SceneError where the library refuses what the scene says, FileError or InvalidInput for the mesh.
+  explicit SceneRun(SceneFile file, const RunOptions& options = {});
+  /// \param mesh  in place of the scene's; empty for none
+  SceneRun(SceneFile file, bind::PolygonMesh mesh, const RunOptions& options = {});
+  ~SceneRun();
+  SceneRun(SceneRun&&) noexcept;
+  SceneRun& operator=(SceneRun&&) noexcept;
+
+  /// Runs to the end of the scene's duration, once. Anything but Stop::finished is no success; the state is
+  /// then that of the last good step. The same scene gives the same bits.
+  Report run(const Output& output = {}, const Progress& progress = {});
+
+  /// The present moment; the mesh is brought up to date.
+  Snapshot snapshot();
+
+  const SceneFile& file() const;
+  const System& system() const;
+  const Simulation& simulation() const;
+  const BoundMesh* mesh() const;  ///< null without a mesh
+  std::size_t outputs() const;    ///< snapshots handed out so far
+  const RunSeconds& seconds() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace tendril::scene

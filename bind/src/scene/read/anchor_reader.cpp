@@ -1,0 +1,130 @@
+#include "scene/read/anchor_reader.h"
+
+#include "scene/read/rod_reader.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace tendril::scene {
+namespace {
+
+/// sin(2 pi frequency t + phase), or t where even, and its rate.
+struct Wave {
+  double frequency = 0.0, phase = 0.0;
+  bool even = false;
+
+  double value(double t) const { return even ? t : std::sin(2.0 * std::numbers::pi * frequency * t + phase); }
+  double rate(double t) const {
+    if (even) return 1.0;
+    const double omega = 2.0 * std::numbers::pi * frequency;
+    return omega * std::cos(omega * t + phase);
+  }
+};
+
+struct Motion {
+  Vec3 rest = Vec3::Zero();
+  Frame frame;
+  Vec3 shift = Vec3::Zero();  ///< amplitude of the translation
+  Wave shift_wave;
+  Vec3 axis = Vec3::UnitZ(), about = Vec3::Zero();
+  double angle = 0.0;  ///< amplitude of the rotation [rad]
+  Wave angle_wave;
+
+  AnchorPose operator()(double t) const {
+    const auto turned = [&](const Vec3& v) { return rotate_about(axis, angle * angle_wave.value(t), v); };
+    const Vec3 arm = turned(rest - about);
+    AnchorPose pose;
+    pose.angular_velocity = axis * (angle * angle_wave.rate(t));
+    pose.position = about + arm + shift * shift_wave.value(t);
+    pose.velocity = pose.angular_velocity.cross(arm) + shift * shift_wave.rate(t);
+    pose.frame = {turned(frame.x), turned(frame.y), turned(frame.z)};
+    return pose;
+  }
+};
+
+Wave read_swing(const JsonNode& node) {
+  return {node.at("frequency").not_negative(), node.number_or("phase", 0.0), false};
+}
+
+/// Either swings, with amplitude and frequency, or goes on evenly at `rate`. \return  the name of the size
+const char* read_wave(const JsonNode& node, const char* rate, Wave& wave) {
+  if (node.has(rate) == node.has("amplitude"))
+    node.refuse(std::string("amplitude and ") + rate, "one of them, not both");
+  if (node.has(rate)) {
+    if (node.has("frequency") || node.has("phase"))
+      node.refuse(std::string("frequency or phase beside ") + rate, "an even motion");
+    wave = {0.0, 0.0, true};
+    return rate;
+  }
+  wave = read_swing(node);
+  return "amplitude";
+}
+
+struct Rotation {
+  Vec3 axis;
+  double angle;
+  Wave wave;
+  std::optional<Vec3> about;
+};
+
+Rotation read_rotation(const JsonNode& node) {
+  const Vec3 axis = node.at("axis").vec3();
+  const double length = axis.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    node.at("axis").refuse("no direction", "a vector that is not zero");
+  Rotation out{axis / length, 0.0, {}, std::nullopt};
+  out.angle = node.at(read_wave(node, "rate", out.wave)).number();
+  if (node.has("about")) out.about = node.at("about").vec3();
+  return out;
+}
+
+struct Range {
+  std::size_t first, last;
+};
+
+Range read_range(const JsonNode& anchor, const Rod& rod) {
+  if (anchor.has("node") == anchor.has("nodes")) anchor.refuse("node and nodes", "one of them, not both");
+  if (anchor.has("node")) {
+    const std::size_t node = read_node(anchor.at("node"), rod);
+    return {node, node};
+  }
+  const JsonNode nodes = anchor.at("nodes");
+  const Range range{read_node(nodes.at(0), rod), read_node(nodes.at(1), rod)};
+  if (range.first > range.last) nodes.refuse("a range that ends before it starts", "[first, last]");
+  return range;
+}
+
+}  // namespace
+
+std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, const Rod& rod) {
+  const Range range = read_range(anchor, rod);
+  const std::string hold = anchor.text_or("hold", "both");
+  const NodeFrames frames = node_frames(rod.p, rod.q);
+  std::optional<Rotation> rotation;
+  if (anchor.has("rotation")) rotation = read_rotation(anchor.at("rotation"));
+
+  std::vector<Anchor> out;
+  for (std::size_t i = range.first; i <= range.last; ++i) {
+    Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
+    if (anchor.has("until")) one.until = anchor.at("until").number();
+    Motion motion;
+    motion.rest = motion.about = rod.p[i];
+    motion.frame = frames.frame[i];
+    if (anchor.has("translation")) {
+      const JsonNode way = anchor.at("translation");
+      motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
+    }
+    if (rotation) {
+      motion.axis = rotation->axis;
+      motion.angle = rotation->angle;
+      motion.angle_wave = rotation->wave;
+      motion.about = rotation->about.value_or(rod.p[i]);
+    }
+    if (anchor.has("translation") || rotation) one.motion = motion;
+    out.push_back(one);
+  }
+  return out;
+}
+
+}  // namespace tendril::scene

@@ -1,0 +1,85 @@
+#include "scene/json/schema.h"
+#include "scene/read/curve_reader.h"
+
+#include <tendril/base/file.h>
+#include <tendril/dynamics/rod.h>
+#include <tendril/scene/curve_file.h>
+
+namespace tendril::scene {
+namespace {
+
+CurveFile from_control_points(const JsonNode& file, int degree) {
+  for (const char* key : {"points", "orientation", "parametrisation"}) {
+    if (file.has(key))
+      file.at(key).refuse("not used with control points", "points or control_points, not both");
+  }
+  const KnotVector knots =
+      file.at("knots").locate([&] { return KnotVector(degree, file.at("knots").numbers()); });
+  const auto count = static_cast<std::size_t>(knots.control_points());
+  for (const char* key : {"control_points", "orientation_control_points"}) {
+    if (file.at(key).size() == count) continue;
+    file.at(key).refuse(std::to_string(file.at(key).size()) + " control points",
+                        std::to_string(count) + ", as the knots and the degree ask for");
+  }
+  return {file.locate([&] {
+            return CurvePair(knots, file.at("control_points").points(),
+                             file.at("orientation_control_points").points());
+          }),
+          {},
+          std::nullopt,
+          file.place()};
+}
+
+CurveFile from_masses(const JsonNode& file, int degree, const CurveFile* rest) {
+  for (const char* key : {"knots", "control_points", "orientation_control_points"}) {
+    if (file.has(key)) file.at(key).refuse("not used with points", "points or control_points, not both");
+  }
+  const JsonNode points = file.at("points");
+  const std::vector<Vec3> p = points.points();
+  const std::vector<Vec3> q = read_orientation(file.at("orientation"), p, mean_edge(points, p));
+  const bool as_rest = rest != nullptr && rest->through && rest->masses.size() == p.size();
+  const Interpolator through =
+      as_rest ? *rest->through
+              : points.locate([&] { return Interpolator(degree, p, read_parametrisation(file)); });
+  return {CurvePair(through.knots(), through.solve(p), through.solve(q)), p, through, file.place()};
+}
+
+CurveFile one_curve(const JsonNode& curve, const CurveFile* rest) {
+  const int degree = curve.has("degree") ? static_cast<int>(curve.at("degree").integer(1, kMaxDegree)) : 3;
+  if (curve.has("control_points")) return from_control_points(curve, degree);
+  if (curve.has("points")) return from_masses(curve, degree, rest);
+  curve.refuse("neither points nor control points", "the key 'points' or 'control_points'");
+}
+
+Json curve_json(const std::string& path) {
+  Json json = parse_json(read_file(path), path);
+  require_schema(json, kCurveSchema, path);
+  return json;
+}
+
+}  // namespace
+
+CurveFile read_curve(const std::string& path, const CurveFile* rest) {
+  const Json json = curve_json(path);
+  const JsonNode file(path, json);
+  if (file.has("curves")) file.at("curves").refuse("a list of curve-pairs", "one curve-pair");
+  return one_curve(file, rest);
+}
+
+std::vector<CurveFile> read_curves(const std::string& path, std::span<const CurveFile> rest) {
+  const Json json = curve_json(path);
+  const JsonNode file(path, json);
+  const std::size_t count = file.has("curves") ? file.at("curves").size() : 1;
+  if (!rest.empty() && count != rest.size())
+    file.refuse(std::to_string(count) + " curve-pairs", std::to_string(rest.size()) + ", as at rest");
+  std::vector<CurveFile> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const CurveFile* at_rest = rest.empty() ? nullptr : &rest[k];
+    out.push_back(one_curve(file.has("curves") ? file.at("curves").at(k) : file, at_rest));
+  }
+  if (file.has("curves") && json.size() > 2)
+    file.refuse("more than a list of curve-pairs", "no keys but 'version' and 'curves'");
+  return out;
+}
+
+}  // namespace tendril::scene

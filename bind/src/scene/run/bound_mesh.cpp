@@ -1,0 +1,92 @@
+#include <tendril/bind/import.h>
+#include <tendril/scene/bound_mesh.h>
+
+#include <algorithm>
+
+namespace tendril::scene {
+namespace {
+
+Interpolator rest_fit(const SceneFile& file, const Rod& rod) {
+  const int degree = std::min(file.options.degree, static_cast<int>(rod.p.size()) - 1);
+  return {degree, rod.p, file.options.parametrisation};
+}
+
+bind::Binding bind_at_rest(const SceneFile& file, const bind::PolygonMesh& mesh, bind::BindMode mode,
+                           int threads) {
+  std::vector<CurvePair> rest;
+  for (const std::size_t k : file.bound_to) {
+    const Rod& rod = file.scene.rods.at(k);
+    const Interpolator fit = rest_fit(file, rod);
+    rest.emplace_back(fit.knots(), fit.solve(rod.p), fit.solve(rod.q));
+  }
+  try {
+    return {rest, mesh, bind::BindOptions{.mode = mode, .threads = threads}};
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file.mesh, error.place() + ": " + error.reason(), error.expected());
+  }
+}
+
+/// How far a curve-pair reaches at its nodes, whose parameters on the curve ascend.
+struct Reach {
+  std::vector<double> distance, parameters;
+
+  double at(double t) const {
+    const auto after = std::upper_bound(parameters.begin() + 1, parameters.end() - 1, t);
+    const auto k = static_cast<std::size_t>(after - parameters.begin());
+    const double part = (t - parameters[k - 1]) / (parameters[k] - parameters[k - 1]);
+    return (1.0 - part) * distance[k - 1] + part * distance[k];
+  }
+};
+
+/// Of each of the curve-pairs that the mesh follows; no distances where everything is reached.
+std::vector<Reach> reaches_of(const SceneFile& file) {
+  std::vector<Reach> out;
+  for (const std::size_t k : file.bound_to) {
+    out.emplace_back();
+    if (file.reach.at(k).empty()) continue;
+    out.back() = {file.reach[k], rest_fit(file, file.scene.rods[k]).parameters()};
+  }
+  return out;
+}
+
+std::vector<std::size_t> beyond_reach(const bind::Binding& binding, std::span<const Reach> reaches) {
+  std::vector<std::size_t> out;
+  const auto records = binding.records();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Reach& reach = reaches[binding.pair_of(i)];
+    const AxialPoint& r = records[i];
+    if (!reach.distance.empty() && Vec3(r.u, r.v, r.w).norm() > reach.at(r.t)) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+bind::BindMode default_mode(const SceneFile& file) {
+  return file.bound_to.size() > 1 ? bind::BindMode::continuous : bind::BindMode::nearest;
+}
+
+bind::PolygonMesh read_scene_mesh(const SceneFile& file, std::vector<std::string>* notes) {
+  if (file.mesh.empty()) return {};
+  bind::PolygonMesh mesh = bind::read_mesh(file.mesh, notes);
+  if (mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
+  return mesh;
+}
+
+BoundMesh::BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMode mode, int threads)
+    : mesh_(std::move(mesh)),
+      binding_(bind_at_rest(file, mesh_, mode, threads)),
+      bound_to_(file.bound_to),
+      still_(beyond_reach(binding_, reaches_of(file))) {
+  mesh_.point_normals.clear();
+  for (const std::size_t i : still_) still_at_.push_back(mesh_.points[i]);
+}
+
+void BoundMesh::update(std::span<const CurvePair> pairs, int threads) {
+  std::vector<CurvePair> posed;
+  for (const std::size_t k : bound_to_) posed.push_back(pairs[k]);
+  binding_.update(posed, mesh_.points, threads);
+  for (std::size_t i = 0; i < still_.size(); ++i) mesh_.points[still_[i]] = still_at_[i];
+}
+
+}  // namespace tendril::scene

@@ -1,0 +1,135 @@
+#include <tendril/scene/scene_run.h>
+
+#include <chrono>
+
+namespace tendril::scene {
+namespace {
+
+/// Adds the time it lives to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+Simulation make_simulation(const SceneFile& file, const System& system, const RunOptions& options) {
+  try {
+    return {system, options.start ? *options.start : system.rest_state(), file.options};
+  } catch (const InvalidInput& error) {
+    throw in_scene(file, error);
+  }
+}
+
+}  // namespace
+
+struct SceneRun::Implementation : Follower {
+  SceneFile file;
+  System system;
+  Simulation simulation;
+  System::WorkspacePtr work;
+  std::optional<BoundMesh> mesh;
+  int threads;
+  Output output;
+  std::size_t outputs = 0;
+  RunSeconds seconds;
+  double interrupted = 0.0;  ///< seconds of a run that were spent on outputs
+
+  Implementation(SceneFile scene, bind::PolygonMesh surface, const RunOptions& options)
+      : file(std::move(scene)),
+        system(make_system(file)),
+        simulation(make_simulation(file, system, options)),
+        work(system.make_workspace()),
+        threads(options.threads) {
+    if (surface.points.empty()) return;
+    const Stopwatch watch(seconds.bind);
+    mesh.emplace(file, std::move(surface), options.mode.value_or(default_mode(file)), threads);
+  }
+
+  void follow(double, std::span<const CurvePair>) override {
+    const Stopwatch watch(interrupted);
+    const Snapshot now = snapshot();
+    ++outputs;
+    if (output) output(now);
+  }
+
+  Snapshot snapshot() {
+    const State& state = simulation.state();
+    const auto pairs = simulation.pairs();
+    Snapshot out{state.time, {}, {pairs.begin(), pairs.end()}, {}, {}};
+    if (mesh) {
+      const Stopwatch watch(seconds.update);
+      mesh->update(pairs, threads);
+      out.points = mesh->mesh().points;
+    }
+    const std::vector<Vec3> q = system.orientation_masses(state, *work);
+    for (const NodeRange& rod : system.rods()) {
+      std::vector<Vec3> p;
+      for (std::size_t i = rod.first; i < rod.first + rod.count; ++i)
+        p.push_back(state.y.segment<3>(3 * static_cast<Eigen::Index>(i)));
+      out.masses.push_back(std::move(p));
+      const auto first = q.begin() + static_cast<std::ptrdiff_t>(rod.first);
+      out.orientation.emplace_back(first, first + static_cast<std::ptrdiff_t>(rod.count));
+    }
+    return out;
+  }
+};
+
+SceneRun::SceneRun(SceneFile file, const RunOptions& options) {
+  bind::PolygonMesh mesh = read_scene_mesh(file);
+  self_ = std::make_unique<Implementation>(std::move(file), std::move(mesh), options);
+}
+
+SceneRun::SceneRun(SceneFile file, bind::PolygonMesh mesh, const RunOptions& options)
+    : self_(std::make_unique<Implementation>(std::move(file), std::move(mesh), options)) {}
+
+SceneRun::~SceneRun() = default;
+SceneRun::SceneRun(SceneRun&&) noexcept = default;
+SceneRun& SceneRun::operator=(SceneRun&&) noexcept = default;
+
+Report SceneRun::run(const Output& output, const Progress& progress) {
+  Implementation& self = *self_;
+  self.output = output;
+  self.simulation.add(self, Simulation::When::output);
+  if (progress) self.simulation.on_progress([&](double time) { return progress(time / self.file.duration); });
+  double whole = 0.0;
+  Report report;
+  try {
+    const Stopwatch watch(whole);
+    report = self.simulation.run(self.file.duration, self.file.outputs);
+  } catch (const InvalidInput& error) {
+    throw in_scene(self.file, error);
+  }
+  self.seconds.simulate += whole - self.interrupted;
+  self.output = {};
+  return report;
+}
+
+Snapshot SceneRun::snapshot() {
+  return self_->snapshot();
+}
+const SceneFile& SceneRun::file() const {
+  return self_->file;
+}
+const System& SceneRun::system() const {
+  return self_->system;
+}
+const Simulation& SceneRun::simulation() const {
+  return self_->simulation;
+}
+const BoundMesh* SceneRun::mesh() const {
+  return self_->mesh ? &*self_->mesh : nullptr;
+}
+std::size_t SceneRun::outputs() const {
+  return self_->outputs;
+}
+const RunSeconds& SceneRun::seconds() const {
+  return self_->seconds;
+}
+
+}  // namespace tendril::scene
