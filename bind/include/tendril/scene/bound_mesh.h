@@ -14,6 +14,7 @@ namespace tendril::scene {
 TENDRIL_SCENE_API bind::BindMode default_mode(const SceneFile& file);
 
 /// The scene's mesh, or an empty one where it names none.
+/// \param file   the scene
 /// \param notes  gets what is odd about the mesh's file but not refused; or null, and it is refused
 /// Throws FileError or InvalidInput, "mesh:line", as bind::read_mesh, and where the mesh has no points.
 TENDRIL_SCENE_API bind::PolygonMesh read_scene_mesh(const SceneFile& file,
@@ -25,16 +26,22 @@ TENDRIL_SCENE_API bind::PolygonMesh read_scene_mesh(const SceneFile& file,
 class TENDRIL_SCENE_API BoundMesh {
  public:
   /// Bound at rest, on the knots that a Simulation of the scene uses. Cost: that of a bind::Binding.
+  /// \param file     the scene; not kept
   /// \param mesh     at rest; its normals are dropped, since they would not follow
+  /// \param mode     how vertices near jumps of the nearest point are bound
   /// \param threads  1 to 256; the same bits for any number
+  ///
   /// Throws InvalidInput that names the mesh's file.
   BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMode mode, int threads = 1);
 
-  /// \param pairs  all curve-pairs of the scene, as Simulation::pairs gives them
+  /// Moves the mesh to the curve-pairs. Cost: that of bind::Binding::update.
+  /// \param pairs    all curve-pairs of the scene, as Simulation::pairs gives them
+  /// \param threads  1 to 256; the same bits for any number
   void update(std::span<const CurvePair> pairs, int threads = 1);
 
   /// As of the last update; at rest before the first.
   const bind::PolygonMesh& mesh() const { return mesh_; }
+  /// What the mesh is bound by; to the curve-pairs of SceneFile::bound_to, in their order.
   const bind::Binding& binding() const { return binding_; }
   /// Vertices out of reach, ascending.
   std::span<const std::size_t> out_of_reach() const { return still_; }

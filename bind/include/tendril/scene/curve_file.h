@@ -13,7 +13,7 @@ namespace tendril::scene {
 
 /// A curve-pair as its file gives it.
 struct CurveFile {
-  CurvePair pair;
+  CurvePair pair;                       ///< the curves, clamped on [0, 1] where they go through points
   std::vector<Vec3> masses;             ///< the points of a chain; empty where the file gives control points
   std::optional<Interpolator> through;  ///< what put the curves through them; nothing with control points
   std::string place;                    ///< "file#/pointer", for messages
@@ -31,6 +31,7 @@ struct CurveFile {
 TENDRIL_SCENE_API CurveFile read_curve(const std::string& path, const CurveFile* rest = nullptr);
 
 /// The same for a file that may hold a list of curve-pairs, as `tendril axis` writes them.
+/// \param path  also the name in messages
 /// \param rest  one for each of the file's curve-pairs, else SceneError; or empty
 TENDRIL_SCENE_API std::vector<CurveFile> read_curves(const std::string& path,
                                                      std::span<const CurveFile> rest = {});

@@ -19,8 +19,12 @@ struct FilePlace {
 /// "file#/pointer"; reason() quotes the value found, expected() says what would have been right.
 class TENDRIL_SCENE_API SceneError : public InvalidInput {
  public:
+  /// \param at        the place
+  /// \param reason    what is wrong, with the value found
+  /// \param expected  what would have been right
   SceneError(FilePlace at, const std::string& reason, const std::string& expected);
 
+  /// place() in parts.
   const FilePlace& at() const { return at_; }
 
  private:

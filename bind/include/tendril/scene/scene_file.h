@@ -28,12 +28,12 @@ struct SceneFile {
   std::vector<std::string> force_places;     ///< and of each force
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
-  SimulationOptions options;
-  double duration = 0.0;        ///< positive
-  std::vector<double> outputs;  ///< times, ascending from 0, none beyond the duration
-  ViewOptions view;             ///< how to draw it
-  int panels = 12;              ///< pictures of a contact sheet, 1 to 100
-  bool draw_axis = false;       ///< whether curve-pairs are drawn over the mesh
+  SimulationOptions options;                 ///< method, tolerance, limits, degree of the curves
+  double duration = 0.0;                     ///< positive
+  std::vector<double> outputs;               ///< times, ascending from 0, none beyond the duration
+  ViewOptions view;                          ///< how to draw it
+  int panels = 12;                           ///< pictures of a contact sheet, 1 to 100
+  bool draw_axis = false;                    ///< whether curve-pairs are drawn over the mesh
 };
 
 /// Reads and checks a scene file: JSON with comments, held against scene.schema.json, then beyond what a
@@ -43,8 +43,9 @@ struct SceneFile {
 /// Throws SceneError for what the file says, FileError when it cannot be read. O(file).
 TENDRIL_SCENE_API SceneFile read_scene(const std::string& path);
 
-/// The same of a text in memory. \param name  stands for the file: in messages, and relative to it the
-/// scene's mesh is found
+/// The same of a text in memory.
+/// \param text  what the file would hold
+/// \param name  stands for the file: in messages, and relative to it the scene's mesh is found
 TENDRIL_SCENE_API SceneFile parse_scene(std::string_view text, const std::string& name);
 
 /// What the library says of `rods[i]`, `joints[i]`, `anchors[i]` or `forces[i]`, said of that part of the

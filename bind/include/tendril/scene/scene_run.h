@@ -19,15 +19,18 @@ struct RunOptions {
 
 /// A scene at one moment, all of it a copy. Positions are in the scene's units.
 struct Snapshot {
-  double time = 0.0;
-  std::vector<Vec3> points;                            ///< of the mesh, in its order; empty without a mesh
-  std::vector<CurvePair> pairs;                        ///< the curve-pairs
-  std::vector<std::vector<Vec3>> masses, orientation;  ///< per curve-pair and node
+  double time = 0.0;                           ///< of the scene
+  std::vector<Vec3> points;                    ///< of the mesh, in its order; empty without a mesh
+  std::vector<CurvePair> pairs;                ///< the curve-pairs
+  std::vector<std::vector<Vec3>> masses;       ///< per curve-pair and node
+  std::vector<std::vector<Vec3>> orientation;  ///< the orientation masses beside them
 };
 
 /// Seconds of wall time, outputs not counted.
 struct RunSeconds {
-  double bind = 0.0, simulate = 0.0, update = 0.0;
+  double bind = 0.0;      ///< the mesh to the curve-pairs, once
+  double simulate = 0.0;  ///< the rods
+  double update = 0.0;    ///< of the mesh, at outputs
 };
 
 /// A scene ready to run, and run. Whatever is wrong with the input has been refused once it stands.
@@ -41,11 +44,14 @@ class TENDRIL_SCENE_API SceneRun {
   /// Reads the mesh that the scene names.
   /// Throws SceneError where the library refuses what the scene says, FileError or InvalidInput for the mesh.
   explicit SceneRun(SceneFile file, const RunOptions& options = {});
-  /// \param mesh  in place of the scene's; empty for none
+  /// Runs with a mesh that was read, or made, before.
+  /// \param file     the scene
+  /// \param mesh     in place of the scene's; empty for none
+  /// \param options  how it is run
   SceneRun(SceneFile file, bind::PolygonMesh mesh, const RunOptions& options = {});
   ~SceneRun();
-  SceneRun(SceneRun&&) noexcept;
-  SceneRun& operator=(SceneRun&&) noexcept;
+  SceneRun(SceneRun&&) noexcept;             ///< what was moved from may only be destroyed or assigned to
+  SceneRun& operator=(SceneRun&&) noexcept;  ///< the same
 
   /// Runs to the end of the scene's duration, once. Anything but Stop::finished is no success; the state is
   /// then that of the last good step. The same scene gives the same bits.
@@ -54,12 +60,12 @@ class TENDRIL_SCENE_API SceneRun {
   /// The present moment; the mesh is brought up to date.
   Snapshot snapshot();
 
-  const SceneFile& file() const;
-  const System& system() const;
-  const Simulation& simulation() const;
-  const BoundMesh* mesh() const;  ///< null without a mesh
-  std::size_t outputs() const;    ///< snapshots handed out so far
-  const RunSeconds& seconds() const;
+  const SceneFile& file() const;         ///< the scene
+  const System& system() const;          ///< it flattened
+  const Simulation& simulation() const;  ///< with the present state
+  const BoundMesh* mesh() const;         ///< null without a mesh
+  std::size_t outputs() const;           ///< snapshots handed out so far
+  const RunSeconds& seconds() const;     ///< spent so far
 
  private:
   struct Implementation;

@@ -12,6 +12,7 @@ namespace tendril::scene {
 /// double, whatever the locale; lines end with "\n".
 class TENDRIL_SCENE_API Trajectory {
  public:
+  /// Appends the lines of a moment.
   void add(const Snapshot& snapshot);
   /// The lines so far below the header "time,rod,node,px,py,pz,qx,qy,qz".
   const std::string& csv() const { return csv_; }
