@@ -2,34 +2,26 @@
 
 #include "scene/read/curve_reader.h"
 
-#include <algorithm>
-#include <cmath>
+#include <tendril/scene/output_times.h>
 
 namespace tendril::scene {
 namespace {
 
-constexpr std::size_t kMostFrames = 10000;
+constexpr long kMostFrames = 10000;
 
 std::vector<double> read_outputs(const JsonNode& simulation, double duration) {
   if (simulation.has("output_every") && simulation.has("frames")) {
     simulation.refuse("output_every and frames", "one of them, not both");
   }
-  std::vector<double> outputs{0.0};
   if (simulation.has("output_every")) {
     const JsonNode every = simulation.at("output_every");
     const double step = every.positive();
-    const double count = std::floor(duration / step * (1.0 + 1e-12));
-    if (count + 1 > static_cast<double>(kMostFrames)) {
+    if (!(duration / step + 1.0 <= static_cast<double>(kMostFrames)))
       every.refuse("more than " + std::to_string(kMostFrames) + " frames in the run", "a larger step");
-    }
-    for (int k = 1; k <= static_cast<int>(count); ++k) outputs.push_back(std::min(k * step, duration));
-    return outputs;
+    return output_times_every(duration, step);
   }
   const long frames = simulation.has("frames") ? simulation.at("frames").integer(2, kMostFrames) : 101;
-  for (long k = 1; k < frames; ++k) {
-    outputs.push_back(duration * static_cast<double>(k) / static_cast<double>(frames - 1));
-  }
-  return outputs;
+  return output_times(duration, static_cast<std::size_t>(frames));
 }
 
 /// A method that chooses its own steps is given none; every other one needs one.
