@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tendril/scene/scene_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -143,6 +144,69 @@ TEST(SceneReader, OutputsReachFromTheStartToTheEnd) {
   EXPECT_EQ(read(scene).outputs.back(), 1.0);
   scene["simulation"] = {{"duration", 1.05}, {"output_every", 0.1}};
   EXPECT_EQ(read(scene).outputs.size(), 11U);
+}
+
+/// Text with one value per line; the number of the line on which `word` stands first.
+std::size_t line_with(const std::string& text, const std::string& word) {
+  const auto at = static_cast<std::ptrdiff_t>(text.find(word));
+  return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + at, '\n'));
+}
+
+scene::FilePlace place_of(const std::string& text) {
+  try {
+    scene::parse_scene(text, "scene.json");
+  } catch (const scene::SceneError& error) {
+    return error.at();
+  }
+  ADD_FAILURE() << "not refused: " << text;
+  return {};
+}
+
+TEST(SceneReader, ErrorsHoldFilePointerAndLineApart) {
+  Json scene = Json::parse(full_scene());
+  scene["forces"][1]["gust"] = "much";
+  std::string text = scene.dump(2);
+  scene::FilePlace at = place_of(text);
+  EXPECT_EQ(at.file, "scene.json");
+  EXPECT_EQ(at.pointer, "/forces/1/gust");
+  EXPECT_EQ(at.line, line_with(text, "\"gust\""));
+  EXPECT_EQ(at.column, 0U);
+
+  scene = Json::parse(full_scene());
+  scene["curve_pairs"][1]["points"][2] = {1.2, 1, 77};
+  scene["curve_pairs"][1]["points"][3] = {1.2, 1, 77};
+  text = scene.dump(2);
+  at = place_of(text);
+  EXPECT_EQ(at.pointer, "/curve_pairs/1/points/3");
+  EXPECT_EQ(at.line, line_with(text, "77") + 2);  // the bracket after the one that closes the point before
+
+  scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["points"][2][1] = "high";
+  text = scene.dump(2);
+  EXPECT_EQ(place_of(text).line, line_with(text, "high"));
+
+  scene = Json::parse(full_scene());
+  scene["simulation"].erase("duration");
+  text = scene.dump(2);
+  at = place_of(text);
+  EXPECT_EQ(at.pointer, "/simulation");
+  EXPECT_EQ(at.line, line_with(text, "\"simulation\""));
+
+  at = place_of("{\n  \"version\": 1,\n  \"mesh\": ]\n}");
+  EXPECT_EQ(at.pointer, "");
+  EXPECT_EQ(at.line, 3U);
+  EXPECT_EQ(at.column, 11U);
+}
+
+/// Numbers end where the next character begins: a line end behind one is no part of it.
+TEST(SceneReader, TheLineOfANumberIsItsOwn) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["points"][1] = {-0.0, 0.0, 0.0};  // the same as the first
+  scene["curve_pairs"][0]["section"]["radius"] = {0.1, 0.09, -5};
+  const std::string text = scene.dump(2);
+  const scene::FilePlace at = place_of(text);
+  EXPECT_EQ(at.pointer, "/curve_pairs/0/section/radius/2");
+  EXPECT_EQ(at.line, line_with(text, "-5"));
 }
 
 TEST(SceneReader, TheScenesOfTheTreeAreGood) {

@@ -110,6 +110,18 @@ TEST(SceneRun, WritesTrajectoryAndSummaryThatReadBack) {
   EXPECT_EQ(summary.at("energy").at("imbalance").get<double>(), report.imbalance);
 }
 
+/// An output at 0.013 100 / 100, which rounds to above 0.013.
+TEST(SceneRun, ADurationThatItsFramesDoNotDivideIsRun) {
+  Json json = Json::parse(full_scene());
+  json["simulation"] = {{"duration", 0.013}};
+  scene::SceneRun run(file_of(json), bind::PolygonMesh{});
+  double last = 0.0;
+  const Report report = run.run([&](const scene::Snapshot& now) { last = now.time; });
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_EQ(run.outputs(), 101U);
+  EXPECT_EQ(last, 0.013);
+}
+
 /// What only the library can refuse is said of the scene's file, too.
 TEST(SceneRun, RefusalsNameTheFileAndThePart) {
   Json json = Json::parse(full_scene());
@@ -122,6 +134,7 @@ TEST(SceneRun, RefusalsNameTheFileAndThePart) {
   } catch (const scene::SceneError& error) {
     EXPECT_EQ(error.at().file, "scene.json");
     EXPECT_EQ(error.at().pointer, "/simulation");
+    EXPECT_EQ(error.at().line, 1U);
   }
   file = file_of(json);
   file.scene.anchors.back().node = 99;

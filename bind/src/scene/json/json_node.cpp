@@ -9,20 +9,6 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 
-std::string escape(const std::string& key) {
-  std::string out;
-  for (const char c : key) {
-    if (c == '~') {
-      out += "~0";
-    } else if (c == '/') {
-      out += "~1";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 FilePlace line_and_column(const std::string& name, std::string_view text, std::size_t position) {
   const std::string_view before = text.substr(0, std::min(position > 0 ? position - 1 : 0, text.size()));
   const auto line = static_cast<std::size_t>(1 + std::count(before.begin(), before.end(), '\n'));
@@ -110,6 +96,20 @@ class SyntaxCheck : public nlohmann::json_sax<Json> {
 };
 
 }  // namespace
+
+std::string escape(const std::string& key) {
+  std::string out;
+  for (const char c : key) {
+    if (c == '~') {
+      out += "~0";
+    } else if (c == '/') {
+      out += "~1";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
 
 std::string quote(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -66,6 +66,9 @@ class JsonNode {
   std::string pointer_;
 };
 
+/// A key as a JSON pointer has it: ~ and / are written ~0 and ~1.
+std::string escape(const std::string& key);
+
 /// A short quotation of a value for messages.
 std::string quote(const Json& value);
 

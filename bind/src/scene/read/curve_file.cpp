@@ -1,3 +1,4 @@
+#include "scene/json/line_of.h"
 #include "scene/json/schema.h"
 #include "scene/read/curve_reader.h"
 
@@ -51,24 +52,13 @@ CurveFile one_curve(const JsonNode& curve, const CurveFile* rest) {
   curve.refuse("neither points nor control points", "the key 'points' or 'control_points'");
 }
 
-Json curve_json(const std::string& path) {
-  Json json = parse_json(read_file(path), path);
+Json curve_json(const std::string& text, const std::string& path) {
+  Json json = parse_json(text, path);
   require_schema(json, kCurveSchema, path);
   return json;
 }
 
-}  // namespace
-
-CurveFile read_curve(const std::string& path, const CurveFile* rest) {
-  const Json json = curve_json(path);
-  const JsonNode file(path, json);
-  if (file.has("curves")) file.at("curves").refuse("a list of curve-pairs", "one curve-pair");
-  return one_curve(file, rest);
-}
-
-std::vector<CurveFile> read_curves(const std::string& path, std::span<const CurveFile> rest) {
-  const Json json = curve_json(path);
-  const JsonNode file(path, json);
+std::vector<CurveFile> several(const JsonNode& file, std::span<const CurveFile> rest) {
   const std::size_t count = file.has("curves") ? file.at("curves").size() : 1;
   if (!rest.empty() && count != rest.size())
     file.refuse(std::to_string(count) + " curve-pairs", std::to_string(rest.size()) + ", as at rest");
@@ -77,9 +67,29 @@ std::vector<CurveFile> read_curves(const std::string& path, std::span<const Curv
     const CurveFile* at_rest = rest.empty() ? nullptr : &rest[k];
     out.push_back(one_curve(file.has("curves") ? file.at("curves").at(k) : file, at_rest));
   }
-  if (file.has("curves") && json.size() > 2)
+  if (file.has("curves") && file.size() > 2)
     file.refuse("more than a list of curve-pairs", "no keys but 'version' and 'curves'");
   return out;
+}
+
+}  // namespace
+
+CurveFile read_curve(const std::string& path, const CurveFile* rest) {
+  const std::string text = read_file(path);
+  return with_lines(text, [&] {
+    const Json json = curve_json(text, path);
+    const JsonNode file(path, json);
+    if (file.has("curves")) file.at("curves").refuse("a list of curve-pairs", "one curve-pair");
+    return one_curve(file, rest);
+  });
+}
+
+std::vector<CurveFile> read_curves(const std::string& path, std::span<const CurveFile> rest) {
+  const std::string text = read_file(path);
+  return with_lines(text, [&] {
+    const Json json = curve_json(text, path);
+    return several(JsonNode(path, json), rest);
+  });
 }
 
 }  // namespace tendril::scene

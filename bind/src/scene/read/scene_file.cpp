@@ -1,3 +1,4 @@
+#include "scene/json/line_of.h"
 #include "scene/json/schema.h"
 #include "scene/read/anchor_reader.h"
 #include "scene/read/force_reader.h"
@@ -148,9 +149,7 @@ std::string pointer_of(const SceneFile& file, const std::string& place) {
   return "";
 }
 
-}  // namespace
-
-SceneFile parse_scene(std::string_view text, const std::string& name) {
+SceneFile read_text(std::string_view text, const std::string& name) {
   const Json json = parse_json(text, name);
   require_schema(json, kSceneSchema, name);
   const JsonNode file(name, json);
@@ -170,14 +169,21 @@ SceneFile parse_scene(std::string_view text, const std::string& name) {
   return out;
 }
 
+}  // namespace
+
+SceneFile parse_scene(std::string_view text, const std::string& name) {
+  return with_lines(text, [&] { return read_text(text, name); });
+}
+
 SceneFile read_scene(const std::string& path) {
   return parse_scene(read_file(path), path);
 }
 
 SceneError in_scene(const SceneFile& file, const InvalidInput& error) {
   if (const auto* already = dynamic_cast<const SceneError*>(&error)) return *already;
-  return {
-      {file.path, pointer_of(file, error.place())}, error.place() + ": " + error.reason(), error.expected()};
+  const std::string pointer = pointer_of(file, error.place());
+  const std::string reason = error.place() + ": " + error.reason();
+  return {{file.path, pointer, line_of(file.text, pointer)}, reason, error.expected()};
 }
 
 System make_system(const SceneFile& file) {
