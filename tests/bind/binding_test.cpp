@@ -52,7 +52,7 @@ TEST(Binding, IsTheAxialMapOfTheNearestPoint) {
 }
 
 TEST(Binding, GivesTheSameBitsForAnyThreadsAndForOnePoint) {
-  const std::vector<Vec3> points = cloud(2, 5000);
+  const std::vector<Vec3> points = cloud(2, 80000);  // enough for an update to take three threads
   const std::vector<Vec3> axis = test::axis_through(points, 0.2);
   const CurvePair rest = test::pair_through(axis, test::side_of(axis), 1.0);
   const CurvePair pose = posed(rest);

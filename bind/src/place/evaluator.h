@@ -6,6 +6,9 @@
 
 namespace tendril::bind {
 
+/// At 2 to 4 ns a point, fewer take no longer than a thread takes to start.
+constexpr std::size_t kPointsWorthAThread = 32768;
+
 /// Evaluates a binding on posed curve-pairs, in numbers of type T.
 ///
 /// Two passes: the loops of sweep.h write the points of a span's nearest projections in binding order, and
@@ -164,7 +167,7 @@ void Evaluator<T>::blend(const Pieces& pieces, const Access& access, int threads
 template <class T>
 void Evaluator<T>::update(const ColumnsView<T>& out, int threads) const {
   const Pieces pieces = pose<T>(layout_.spans, posed_);
-  in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
+  in_parts(layout_.size, threads, kPointsWorthAThread, [&](std::size_t begin, std::size_t end) {
     evaluate(pieces, layout_.nearest, numbers_.nearest, begin, end, out.from(begin));
   });
   struct Access {
@@ -185,7 +188,7 @@ template <class Row>
 void Evaluator<T>::update(Row* out, int threads) const {
   constexpr std::size_t kBlock = 512;  // columns that stay in the fastest cache until they are rows
   const Pieces pieces = pose<T>(layout_.spans, posed_);
-  in_parts(layout_.size, threads, [&](std::size_t begin, std::size_t end) {
+  in_parts(layout_.size, threads, kPointsWorthAThread, [&](std::size_t begin, std::size_t end) {
     std::array<T, kBlock> x, y, z;
     for (std::size_t at = begin; at < end; at += kBlock) {
       const std::size_t count = std::min(kBlock, end - at);
