@@ -85,7 +85,8 @@ OrderedJson summarize(const scene::SceneFile& file, const System& system, const 
   return out;
 }
 
-/// The masses, the mesh and pictures of the state found. \return  the names of the files
+/// The masses, the mesh and pictures of the state found.
+/// \return  the names of the files
 std::vector<std::string> write_state(const Options& options, scene::SceneFile file, const State& state,
                                      bind::PolygonMesh mesh, Phases& phases) {
   file.outputs = {state.time};

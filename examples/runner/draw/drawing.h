@@ -28,7 +28,8 @@ struct Drawing {
 std::vector<Strand> axis_strands(const CurvePair& pair, Points masses, double radius);
 
 /// The rod itself, round and as thick as its edges are wide.
-/// \param parameters  of the masses on the curve \param widths  per edge; at least 2 `least` is drawn
+/// \param parameters  of the masses on the curve
+/// \param widths  per edge; at least 2 `least` is drawn
 Strand rod_strand(const CurvePair& pair, std::span<const double> parameters, std::span<const double> widths,
                   double least);
 

@@ -77,8 +77,8 @@ int create_beside(const std::string& target, std::string& name) {
   }
 }
 
-/// The file a symbolic link leads to, so that the link itself survives the rename. \return  0 or the error
-/// code
+/// The file a symbolic link leads to, so that the link itself survives the rename.
+/// \return  0 or the error code
 int resolve(const std::string& path, std::string& target) {
   target = path;
   std::error_code ignored;

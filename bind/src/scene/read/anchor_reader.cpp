@@ -47,7 +47,8 @@ Wave read_swing(const JsonNode& node) {
   return {node.at("frequency").not_negative(), node.number_or("phase", 0.0), false};
 }
 
-/// Either swings, with amplitude and frequency, or goes on evenly at `rate`. \return  the name of the size
+/// Either swings, with amplitude and frequency, or goes on evenly at `rate`.
+/// \return  the name of the size
 const char* read_wave(const JsonNode& node, const char* rate, Wave& wave) {
   if (node.has(rate) == node.has("amplitude"))
     node.refuse(std::string("amplitude and ") + rate, "one of them, not both");

@@ -23,7 +23,8 @@ class SlabTable {
   std::uint32_t pair_of(std::size_t slab) const { return spans_[span_of_[slab]].pair; }
 
   /// Makes the slabs whose control points are no longer the same doubles; O(slabs made + control points).
-  /// InvalidInput unless the curve-pairs are on the knots of the rest. \param frame  ascending, above 0
+  /// InvalidInput unless the curve-pairs are on the knots of the rest.
+  /// \param frame  ascending, above 0
   void pose(std::span<const CurvePair> posed, std::uint32_t frame);
 
   /// The last frame in which a point of the slabs [first, last] may have moved.

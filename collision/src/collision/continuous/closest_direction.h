@@ -4,8 +4,8 @@
 
 /// Directions in which two features are likely to be apart: from the closest point of one to that of the
 /// other. Any vector would do for the proof, so nothing here needs to be accurate; degenerate features may
-/// give zero or NaN, along which nothing is ever found apart. After Ericson, Real-Time Collision Detection
-/// (2005), 5.1.5 and 5.1.9.
+/// give zero or NaN, along which nothing is ever found apart. After
+/// [Ericson 2005] 5.1.5 and 5.1.9.
 namespace tendril::collision {
 
 /// From the vertex to the closest point of the face.

@@ -25,7 +25,8 @@ void multiply_add(Natural& n, std::uint32_t factor, std::uint32_t summand) {
   if (carry != 0) n.push_back(static_cast<std::uint32_t>(carry));
 }
 
-/// n / divisor in place. \return  the remainder
+/// n / divisor in place.
+/// \return  the remainder
 std::uint32_t divide(Natural& n, std::uint32_t divisor) {
   std::uint64_t rest = 0;
   for (auto word = n.rbegin(); word != n.rend(); ++word) {

@@ -16,8 +16,8 @@ struct Root {
 };
 
 /// The roots of p, not zero, in [0, 1] in ascending order, each in a bracket of at most 2^-42, to `meets`
-/// until it says true. \return  whether it did; `first` is then that root. `free_until`: no root before it is
-/// wanted.
+/// until it says true.
+/// \return  whether it did; `first` is then that root. `free_until`: no root before it is wanted.
 bool find_root(const Polynomial& p, double free_until, const std::function<bool(const Root&)>& meets,
                Root& first);
 
