@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/exact/shape.h>
 
 namespace tendril::exact {

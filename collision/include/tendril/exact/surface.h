@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/base/export.h>
 #include <tendril/collision/box_tree.h>
 #include <tendril/exact/distance.h>
 
