@@ -196,6 +196,23 @@ TEST(Continuous, FindsTheFirstOfSeveral) {
   EXPECT_GE(test::Ratio(found.to), truth.low);
 }
 
+TEST(Continuous, AgreesWithTheCubicQueriesOfTheTree) {
+  const auto files = test::query_files(std::filesystem::path(TENDRIL_SOURCE_DIR) / "tests/data/collision");
+  ASSERT_EQ(files.size(), 2u);
+  for (const auto& file : files) {
+    const std::string text = test::text_of(file);
+    const auto queries = collision::read_queries<3>(text, file.string());
+    EXPECT_EQ(queries.size(), 100u);
+    EXPECT_EQ(collision::write_queries<3>(queries), text);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const FirstMeeting found = exact::first_meeting<3>(test::features_of(file), queries[i].paths);
+      EXPECT_EQ(found.meeting == Meeting::hit, queries[i].meets) << file << ' ' << i;
+      EXPECT_LE(found.from, queries[i].meets ? queries[i].to : 1.0) << file << ' ' << i;
+      EXPECT_GE(found.to, queries[i].from) << file << ' ' << i;
+    }
+  }
+}
+
 TEST(Continuous, AgreesWithThePublicQueries) {
   const auto files = test::query_files(test::ccd_data());
   if (files.empty()) GTEST_SKIP() << "no public queries at " << test::ccd_data();
