@@ -4,7 +4,7 @@
 
 namespace tendril::scene {
 
-/// The JSON Schemas of examples/schema, embedded when the program is built.
+/// The JSON Schemas of bind/src/scene/schema, embedded when the library is built.
 extern const char* const kSceneSchema;
 extern const char* const kCurveSchema;
 
