@@ -107,6 +107,16 @@ inline TrianglePair degenerate_pair(Random& random) {
   return p;
 }
 
+/// On the grid but for a hair: some zeros are 2^-60 to 2^-99 instead, less than any rounding of their neighbours.
+inline TrianglePair hair_pair(Random& random) {
+  TrianglePair p = grid_pair(random);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (double& x : p[i])
+      if (x == 0.0 && random.integer(2) == 0)
+        x = std::ldexp(random.integer(2) - 0.5, -59 - random.integer(40));
+  return p;
+}
+
 /// At the ends of the range of doubles, and from one end to the other within one triangle.
 inline TrianglePair extreme_pair(Random& random) {
   TrianglePair p = grid_pair(random);
@@ -130,6 +140,7 @@ inline const std::vector<PairFamily>& pair_families() {
       {"vertex on face, rounded", vertex_on_face_pair},
       {"size 1e-7", tiny_pair},
       {"slivers 1e-6", sliver_pair},
+      {"a hair off the grid", hair_pair},
       {"degenerate", degenerate_pair},
       {"extreme", extreme_pair},
   };
