@@ -25,6 +25,9 @@ done
 need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}"
 bash .cmake/cgal-meshes.sh build/cgal-meshes
 export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
-cmake --preset "$preset" -Wno-dev -DTENDRIL_TESTS=ON
+options=(-DTENDRIL_TESTS=ON)
+# One job compiles the benches too, so that they keep up with the library.
+if [ "$preset" = release ]; then options+=(-DTENDRIL_BENCH=ON); fi
+cmake --preset "$preset" -Wno-dev "${options[@]}"
 cmake --build --preset "$preset" "${targets[@]}"
 ctest --preset "$preset" --label-regex "$labels" --parallel "$(nproc)" --no-tests=error </dev/null
