@@ -89,7 +89,7 @@ struct Simulation::Implementation {
     std::sort(releases.begin(), releases.end());
     const bool released = !releases.empty() && releases.front() <= start.time;
     if (released) system = lay_out(start.time);
-    controller = std::make_unique<Controller>(*system, std::move(start), o);
+    controller = make_controller(*system, std::move(start), o);
     const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r)
       pairs.emplace_back(fits[r].knots(), primary(r), orientation(q, r));
@@ -128,7 +128,9 @@ struct Simulation::Implementation {
     }
     const System* freed = lay_out(state.time);
     if (!freed->rebase(state, *freed->make_workspace()).ok()) return false;
-    controller = std::make_unique<Controller>(*freed, std::move(state), *controller);
+    std::unique_ptr<Controller> next = make_controller(*freed, std::move(state), controller->options());
+    next->take_over(controller->past());
+    controller = std::move(next);
     system = freed;
     laid_out.erase(laid_out.begin(), laid_out.end() - 1);
     controller->begin(until);

@@ -1,0 +1,37 @@
+#include "guard.h"
+
+#include <tendril/dynamics/stability.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril {
+namespace {
+
+constexpr int kLanczosVectors = kFrequencyCost / 2;
+
+}  // namespace
+
+double fastest_motion(const System& system, const State& state, System::Workspace& work) {
+  return system.largest_frequency(state, kLanczosVectors, work);
+}
+
+void Guard::measure(const State& state, double duration, System::Workspace& work) {
+  since_.begin_anew();
+  last_ = fastest_motion(system_, state, work);
+  if (frequency_ && std::abs(last_ - *frequency_) <= 0.01 * *frequency_) return;
+  frequency_ = last_;
+  double alpha = std::numeric_limits<double>::infinity();
+  double beta = alpha;
+  double most_beta = 0.0;
+  for (const Rod& rod : system_.scene().rods) {
+    alpha = std::min(alpha, rod.mass_damping);
+    beta = std::min(beta, rod.viscosity);
+    most_beta = std::max(most_beta, rod.viscosity);
+  }
+  const GuardLimits limits{options_.amplification, options_.total_amplification, duration};
+  // Where rods differ, the least damped decides on growth and the most viscous on the real axis.
+  step_ = std::min(guard_step(last_, alpha, beta, limits), guard_step(last_, alpha, most_beta, limits));
+}
+
+}  // namespace tendril

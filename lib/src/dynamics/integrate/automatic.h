@@ -1,0 +1,27 @@
+#pragma once
+
+#include "chosen_steps.h"
+
+namespace tendril {
+
+/// A run that turns from explicit steps to implicit ones where the guard's cap makes those dearer than steps
+/// as long as accuracy allows, and back.
+class Automatic : public ChosenSteps {
+ public:
+  Automatic(const System& system, State start, const SimulationOptions& options,
+            std::unique_ptr<EmbeddedStepper> stepper);
+
+ protected:
+  void look_ahead() override;
+
+ private:
+  bool explicit_fits() const { return needed() < left(); }
+  void turn_to(std::unique_ptr<EmbeddedStepper> stepper);
+  void look_again_later(double ratio);
+
+  double cost_;             ///< of an implicit step, in explicit ones
+  bool chosen_ = false;     ///< a first choice was made
+  long implicit_interval_;  ///< accepted implicit steps between looks at the choice
+};
+
+}  // namespace tendril
