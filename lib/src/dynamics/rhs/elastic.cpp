@@ -12,7 +12,6 @@
 namespace tendril {
 namespace {
 
-using Workspace = System::Workspace;
 using Segment = Model::Segment;
 using lanes::Reader;
 using lanes::V3;
@@ -26,7 +25,7 @@ struct Wanted {
 
 /// What a loop reads and writes; see bend and twist.
 struct Columns {
-  TENDRIL_INLINE Columns(const Model& model, const State& from, Workspace& work)
+  TENDRIL_INLINE Columns(const Model& model, const State& from, const Kinematics& kin, Gradient& grad)
       : k_l(model.bending.k_l.data()),
         k_m(model.bending.k_m.data()),
         k_t(model.bending.k_t.data()),
@@ -39,20 +38,20 @@ struct Columns {
         k_twist(model.twist.data()),
         rest_twist(model.rest_twist.data()),
         reference(from.twist.data()),
-        spin(work.spin.data()),
-        length(work.length.data()),
-        e(work.e),
-        e_rate(work.e_rate),
-        m(work.frame.y),
-        t(work.frame.z),
-        turning(work.turning),
-        g_bend(work.g_bend),
-        twist_tangent(work.twist_tangent),
-        g_length(work.g_length.data()),
-        g_spin(work.g_spin.data()),
-        twist_torque(work.twist_torque.data()),
-        energy(work.energy.data()),
-        heat(work.heat.data()) {}
+        spin(kin.spin.data()),
+        length(kin.length.data()),
+        e(kin.e),
+        e_rate(kin.rate.e_rate),
+        m(kin.frame.y),
+        t(kin.frame.z),
+        turning(kin.rate.turning),
+        g_bend(grad.bend),
+        twist_tangent(grad.twist_tangent),
+        g_length(grad.length.data()),
+        g_spin(grad.spin.data()),
+        twist_torque(grad.twist_torque.data()),
+        energy(grad.energy.data()),
+        heat(grad.heat.data()) {}
 
   const double* __restrict k_l;
   const double* __restrict k_m;
@@ -201,8 +200,8 @@ TENDRIL_INLINE void stretch(const Columns& c, std::size_t i, double& energy) {
 /// Bending of nodes [first, end), stretch and twist of the edges that begin there.
 template <Wanted W>
 TENDRIL_INLINE bool strain(const Model& model, const State& from, std::size_t first, std::size_t end,
-                           Workspace& work) {
-  const Columns c(model, from, work);
+                           const Kinematics& kin, Gradient& grad) {
+  const Columns c(model, from, kin, grad);
   std::int64_t far = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
@@ -222,40 +221,40 @@ TENDRIL_INLINE bool strain(const Model& model, const State& from, std::size_t fi
 }
 
 TENDRIL_LANES bool plain_near(const Model& model, const State& from, std::size_t first, std::size_t end,
-                              Workspace& work) {
-  return strain<Wanted{.near = true}>(model, from, first, end, work);
+                              const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.near = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool plain_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
-                                  Workspace& work) {
-  return strain<Wanted{.straight = true, .near = true}>(model, from, first, end, work);
+                                  const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.straight = true, .near = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool plain_far(const Model& model, const State& from, std::size_t first, std::size_t end,
-                             Workspace& work) {
-  return strain<Wanted{}>(model, from, first, end, work);
+                             const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool thrice_near(const Model& model, const State& from, std::size_t first, std::size_t end,
-                               Workspace& work) {
-  return strain<Wanted{.third = true, .near = true}>(model, from, first, end, work);
+                               const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.third = true, .near = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool thrice_straight(const Model& model, const State& from, std::size_t first, std::size_t end,
-                                   Workspace& work) {
-  return strain<Wanted{.third = true, .straight = true, .near = true}>(model, from, first, end, work);
+                                   const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.third = true, .straight = true, .near = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool thrice_far(const Model& model, const State& from, std::size_t first, std::size_t end,
-                              Workspace& work) {
-  return strain<Wanted{.third = true}>(model, from, first, end, work);
+                              const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.third = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool viscous_near(const Model& model, const State& from, std::size_t first, std::size_t end,
-                                Workspace& work) {
-  return strain<Wanted{.viscous = true, .third = true, .near = true}>(model, from, first, end, work);
+                                const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.viscous = true, .third = true, .near = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool viscous_far(const Model& model, const State& from, std::size_t first, std::size_t end,
-                               Workspace& work) {
-  return strain<Wanted{.viscous = true, .third = true}>(model, from, first, end, work);
+                               const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.viscous = true, .third = true}>(model, from, first, end, kin, grad);
 }
 TENDRIL_LANES bool with_energy(const Model& model, const State& from, std::size_t first, std::size_t end,
-                               Workspace& work) {
-  return strain<Wanted{.third = true, .energy = true}>(model, from, first, end, work);
+                               const Kinematics& kin, Gradient& grad) {
+  return strain<Wanted{.third = true, .energy = true}>(model, from, first, end, kin, grad);
 }
 
 Loops loops_of(const Segment& segment, bool viscous) {
@@ -266,12 +265,13 @@ Loops loops_of(const Segment& segment, bool viscous) {
 
 /// What the twist springs give the nodes, and the gyroscopic force of their spin: -I w t x t' by the tangent.
 template <bool Gyroscopic>
-TENDRIL_INLINE void gather(const Model& model, const Segment& segment, Workspace& work) {
-  const Reader from(work.twist_tangent), turning(work.turning);
-  const Writer to(work.g_tangent);
-  const double *__restrict torque = work.twist_torque.data(), *__restrict spin = work.spin.data(),
+TENDRIL_INLINE void gather(const Model& model, const Segment& segment, const Kinematics& kin,
+                           Gradient& grad) {
+  const Reader from(grad.twist_tangent), turning(kin.rate.turning);
+  const Writer to(grad.tangent);
+  const double *__restrict torque = grad.twist_torque.data(), *__restrict spin = kin.spin.data(),
                *__restrict inertia = model.free_inertia.data();
-  double* __restrict to_spin = work.g_spin.data();
+  double* __restrict to_spin = grad.spin.data();
   TENDRIL_LOOP
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     V3 g = from.at(i - 1) + from.at(i);
@@ -280,11 +280,13 @@ TENDRIL_INLINE void gather(const Model& model, const Segment& segment, Workspace
     to_spin[i] += torque[i - 1] - torque[i];
   }
 }
-TENDRIL_LANES void gather_springs(const Model& model, const Segment& segment, Workspace& work) {
-  gather<false>(model, segment, work);
+TENDRIL_LANES void gather_springs(const Model& model, const Segment& segment, const Kinematics& kin,
+                                  Gradient& grad) {
+  gather<false>(model, segment, kin, grad);
 }
-TENDRIL_LANES void gather_all(const Model& model, const Segment& segment, Workspace& work) {
-  gather<true>(model, segment, work);
+TENDRIL_LANES void gather_all(const Model& model, const Segment& segment, const Kinematics& kin,
+                              Gradient& grad) {
+  gather<true>(model, segment, kin, grad);
 }
 
 double sum_of(const Column& column, const Segment& segment) {
@@ -294,73 +296,82 @@ double sum_of(const Column& column, const Segment& segment) {
 }
 
 /// What the loops left where no edge is must not reach the next rod's first node.
-void clear_ends(const Model& model, Workspace& work) {
+void clear_ends(const Model& model, Gradient& grad) {
   for (const NodeRange& rod : model.rods) {
     const std::size_t last = rod.first + rod.count - 1;
-    work.twist_tangent.set(last, Vec3::Zero());
-    work.twist_torque[last] = 0.0;
-    work.energy[last] = 0.0;
-    work.heat[last] = 0.0;
+    grad.twist_tangent.set(last, Vec3::Zero());
+    grad.twist_torque[last] = 0.0;
+    grad.energy[last] = 0.0;
+    grad.heat[last] = 0.0;
   }
 }
 
-double resist_stretch(const Model& model, const Segment& segment, Workspace& work) {
+double resist_stretch(const Model& model, const Segment& segment, const Kinematics& kin, Gradient& grad) {
   double heat = 0.0;
   for (std::size_t i = segment.first; i < segment.end; ++i) {
-    const double resistance = model.viscosity[i] * model.stretch[i] * work.length_rate[i];
-    heat += resistance * work.length_rate[i];
-    work.g_length[i] += resistance;
+    const double resistance = model.viscosity[i] * model.stretch[i] * kin.rate.length_rate[i];
+    heat += resistance * kin.rate.length_rate[i];
+    grad.length[i] += resistance;
   }
   return heat;
 }
 
 }  // namespace
 
-Evaluation elastic(const Model& model, const State& reference, Inner inner, Workspace& work, double& heat) {
+Evaluation elastic(const Model& model, const State& reference, Inner inner, const Kinematics& kin,
+                   Gradient& grad, double& heat) {
+  assert(inner.viscous || inner.gyroscopic ? kin.has_rates() : kin.has_positions());
   heat = 0.0;
   for (const Segment& s : model.segments) {
     if (s.twist)
-      run(loops_of(s, inner.viscous && s.viscous), model, reference, s, work);
-    else if (const Evaluation at = hinge(model, reference, s, false, work); !at.ok())
+      run(loops_of(s, inner.viscous && s.viscous), model, reference, s, kin, grad);
+    else if (const Evaluation at = hinge(model, reference, s, false, kin, grad); !at.ok())
       return at;
   }
-  clear_ends(model, work);
+  clear_ends(model, grad);
   for (const Segment& s : model.segments) {
-    if (inner.viscous && s.viscous) heat += resist_stretch(model, s, work) + sum_of(work.heat, s);
-    if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, work);
+    if (inner.viscous && s.viscous) heat += resist_stretch(model, s, kin, grad) + sum_of(grad.heat, s);
+    if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, kin, grad);
   }
   for (const std::size_t node : model.bending.held)
-    bend_at_held_frame(model, node, inner.viscous && model.viscosity[node] > 0.0, work, heat);
-  for (const std::size_t node : model.bending.held_hinges) bend_at_held_hinge(model, node, work);
+    bend_at_held_frame(model, node, inner.viscous && model.viscosity[node] > 0.0, kin, grad, heat);
+  for (const std::size_t node : model.bending.held_hinges) bend_at_held_hinge(model, node, kin, grad);
+  grad.made.from(kin);
   return {};
 }
 
-Evaluation elastic_energy(const Model& model, const State& reference, Workspace& work, double& energy) {
+Evaluation elastic_energy(const Model& model, const State& reference, const Kinematics& kin, Gradient& grad,
+                          double& energy) {
+  assert(kin.has_positions());
   for (const Segment& s : model.segments) {
     if (s.twist)
-      with_energy(model, reference, s.first, s.end, work);
-    else if (const Evaluation at = hinge(model, reference, s, true, work); !at.ok())
+      with_energy(model, reference, s.first, s.end, kin, grad);
+    else if (const Evaluation at = hinge(model, reference, s, true, kin, grad); !at.ok())
       return at;
   }
-  clear_ends(model, work);
+  clear_ends(model, grad);
   energy = 0.0;
   for (const Segment& s : model.segments) {
-    energy += sum_of(work.energy, s);
-    if (s.twist) gather_springs(model, s, work);
+    energy += sum_of(grad.energy, s);
+    if (s.twist) gather_springs(model, s, kin, grad);
   }
   double none = 0.0;
   for (const std::size_t node : model.bending.held)
-    energy += bend_at_held_frame(model, node, false, work, none);
-  for (const std::size_t node : model.bending.held_hinges) energy += bend_at_held_hinge(model, node, work);
+    energy += bend_at_held_frame(model, node, false, kin, grad, none);
+  for (const std::size_t node : model.bending.held_hinges)
+    energy += bend_at_held_hinge(model, node, kin, grad);
+  grad.made.from(kin);
   return {};
 }
 
-void relax(const Model& model, bool gyroscopic, Workspace& work) {
-  for (auto* vectors : {&work.g_bend, &work.g_before, &work.g_after, &work.g_tangent, &work.twist_tangent})
+void relax(const Model& model, bool gyroscopic, const Kinematics& kin, Gradient& grad) {
+  assert(gyroscopic ? kin.has_rates() : kin.has_positions());
+  grad.made.from(kin);
+  for (auto* vectors : {&grad.bend, &grad.before, &grad.after, &grad.tangent, &grad.twist_tangent})
     vectors->set_zero();
-  for (auto* numbers : {&work.g_length, &work.g_spin, &work.twist_torque}) numbers->set_zero();
+  for (auto* numbers : {&grad.length, &grad.spin, &grad.twist_torque}) numbers->set_zero();
   for (const Segment& s : model.segments)
-    if (s.twist && gyroscopic) gather_all(model, s, work);
+    if (s.twist && gyroscopic) gather_all(model, s, kin, grad);
 }
 
 }  // namespace tendril

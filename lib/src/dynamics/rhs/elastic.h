@@ -12,14 +12,14 @@ struct Inner {
 
 /// Gradient of the elastic energy at the kinematics. Fails where two edges fold back on each other.
 /// \param heat  power turned into heat, when viscous
-Evaluation elastic(const Model& model, const State& reference, Inner inner, System::Workspace& work,
-                   double& heat);
+Evaluation elastic(const Model& model, const State& reference, Inner inner, const Kinematics& kin,
+                   Gradient& grad, double& heat);
 
 /// The elastic energy with its gradient.
-Evaluation elastic_energy(const Model& model, const State& reference, System::Workspace& work,
+Evaluation elastic_energy(const Model& model, const State& reference, const Kinematics& kin, Gradient& grad,
                           double& energy);
 
 /// The gradient of no springs at all.
-void relax(const Model& model, bool gyroscopic, System::Workspace& work);
+void relax(const Model& model, bool gyroscopic, const Kinematics& kin, Gradient& grad);
 
 }  // namespace tendril

@@ -7,8 +7,6 @@
 namespace tendril {
 namespace {
 
-using Workspace = System::Workspace;
-
 /// What the springs between a held frame and one edge give.
 struct Given {
   Vec3 edge = Vec3::Zero(), tangent = Vec3::Zero();
@@ -42,12 +40,12 @@ Deviations deviations(double x, double y, double z) {
 }
 
 /// The springs of the edge at `side` of a held node (0 before, 1 after).
-Given pull_at(const Model& model, const Held& at, std::size_t side, const Workspace& work) {
+Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinematics& kin) {
   const std::size_t i = at.node;
   const std::size_t edge = i + side - 1;
   const std::size_t end = 2 * edge + 1 - side;
   const Frame& f = at.frame;
-  const Vec3 e = work.e[edge];
+  const Vec3 e = kin.e[edge];
   const double x = e.dot(f.x);
   const double y = e.dot(f.y);
   const double z = e.dot(f.z);
@@ -60,7 +58,7 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Worksp
   given.energy = 0.5 * (fl * l + fm * m);
   if (at.viscous) {
     // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-    const Vec3 e_rate = work.e_rate[edge];
+    const Vec3 e_rate = kin.rate.e_rate[edge];
     const double viscosity = model.viscosity[edge];
     const double l_rate = (e_rate.dot(f.x) - f.x.dot(at.t_rate) * z + at.spin * y) * by.l.inverse_cosine;
     const double m_rate = (e_rate.dot(f.y) - f.y.dot(at.t_rate) * z - at.spin * x) * by.m.inverse_cosine;
@@ -87,25 +85,26 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Worksp
 
 }  // namespace
 
-double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, Workspace& work, double& heat) {
-  const Held at{node, work.frame[node], viscous ? work.t_rate(node) : Vec3(Vec3::Zero()),
-                viscous ? work.spin[node] : 0.0, viscous};
+double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const Kinematics& kin,
+                          Gradient& grad, double& heat) {
+  const Held at{node, kin.frame[node], viscous ? kin.t_rate(node) : Vec3(Vec3::Zero()),
+                viscous ? kin.spin[node] : 0.0, viscous};
   const auto pull = [&](std::size_t side, Columns3& to) {
-    const Given given = pull_at(model, at, side, work);
+    const Given given = pull_at(model, at, side, kin);
     to.set(node, given.edge);
-    work.g_tangent.add(node, given.tangent);
-    work.g_spin[node] += given.spin;
+    grad.tangent.add(node, given.tangent);
+    grad.spin[node] += given.spin;
     heat += given.heat;
     return given.energy;
   };
   double energy = 0.0;
-  if (model.has_before(node)) energy += pull(0, work.g_before);
-  if (model.has_after(node)) energy += pull(1, work.g_after);
+  if (model.has_before(node)) energy += pull(0, grad.before);
+  if (model.has_after(node)) energy += pull(1, grad.after);
   return energy;
 }
 
-double bend_at_held_hinge(const Model& model, std::size_t node, Workspace& work) {
-  const Vec3 t = work.frame.z[node];
+double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics& kin, Gradient& grad) {
+  const Vec3 t = kin.frame.z[node];
   const double stiffness = model.bend_l[node] + model.bend_t[node];
   Vec3 g_tangent = Vec3::Zero();
   double energy = 0.0;
@@ -117,9 +116,9 @@ double bend_at_held_hinge(const Model& model, std::size_t node, Workspace& work)
     energy += 0.5 * stiffness * angle * angle;
     return Vec3(-g * t);
   };
-  if (model.has_before(node)) work.g_before.set(node, spring(work.e[node - 1]));
-  if (model.has_after(node)) work.g_after.set(node, spring(work.e[node]));
-  work.g_tangent.set(node, g_tangent);
+  if (model.has_before(node)) grad.before.set(node, spring(kin.e[node - 1]));
+  if (model.has_after(node)) grad.after.set(node, spring(kin.e[node]));
+  grad.tangent.set(node, g_tangent);
   return energy;
 }
 

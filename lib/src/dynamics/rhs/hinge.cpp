@@ -10,7 +10,6 @@
 namespace tendril {
 namespace {
 
-using Workspace = System::Workspace;
 using Segment = Model::Segment;
 using lanes::Reader;
 using lanes::V3;
@@ -21,11 +20,12 @@ using lanes::Writer;
 /// b. With d = (b - a) / 2, of length sin(phi), the gradient by d is 2 K phi / (sin(phi) cos(phi)) d. False
 /// when two edges fold back (or are not near and were taken for it). Beside it the stretch of the edges.
 template <bool Energy, bool Near>
-TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, Workspace& work) {
-  const Reader e(work.e);
-  const Writer to(work.g_bend);
-  double* __restrict energy = work.energy.data(), * __restrict g_length = work.g_length.data();
-  const double *__restrict length = work.length.data(), *__restrict rest = model.rest_length.data(),
+TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, const Kinematics& kin,
+                                Gradient& grad) {
+  const Reader e(kin.e);
+  const Writer to(grad.bend);
+  double* __restrict energy = grad.energy.data(), * __restrict g_length = grad.length.data();
+  const double *__restrict length = kin.length.data(), *__restrict rest = model.rest_length.data(),
                *__restrict k_stretch = model.stretch.data();
   const double* __restrict stiffness = model.bending.hinge.data();
   std::int64_t bad = 0;
@@ -59,33 +59,32 @@ TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size
 }
 
 TENDRIL_LANES bool hinge_near(const Model& model, const State&, std::size_t first, std::size_t end,
-                              Workspace& work) {
-  return hinge_nodes<false, true>(model, first, end, work);
+                              const Kinematics& kin, Gradient& grad) {
+  return hinge_nodes<false, true>(model, first, end, kin, grad);
 }
 TENDRIL_LANES bool hinge_far(const Model& model, const State&, std::size_t first, std::size_t end,
-                             Workspace& work) {
-  return hinge_nodes<false, false>(model, first, end, work);
+                             const Kinematics& kin, Gradient& grad) {
+  return hinge_nodes<false, false>(model, first, end, kin, grad);
 }
 TENDRIL_LANES bool hinge_with_energy(const Model& model, const State&, std::size_t first, std::size_t end,
-                                     Workspace& work) {
-  return hinge_nodes<true, false>(model, first, end, work);
+                                     const Kinematics& kin, Gradient& grad) {
+  return hinge_nodes<true, false>(model, first, end, kin, grad);
 }
 
-bool never(const Model&, const State&, std::size_t, std::size_t, Workspace&) {
+bool never(const Model&, const State&, std::size_t, std::size_t, const Kinematics&, Gradient&) {
   return false;
 }
 
 }  // namespace
 
 Evaluation hinge(const Model& model, const State& reference, const Segment& segment, bool energy,
-                 Workspace& work) {
+                 const Kinematics& kin, Gradient& grad) {
   // No springs act on these tangents, but torques may.
-  for (std::size_t i = segment.first; i < segment.end && model.loaded; ++i)
-    work.g_tangent.set(i, Vec3::Zero());
+  for (std::size_t i = segment.first; i < segment.end && model.loaded; ++i) grad.tangent.set(i, Vec3::Zero());
   const Loops loops = energy ? Loops{never, hinge_with_energy} : Loops{hinge_near, hinge_far};
-  if (run(loops, model, reference, segment, work)) return {};
+  if (run(loops, model, reference, segment, kin, grad)) return {};
   for (std::size_t i = segment.first; i < segment.end; ++i)
-    if (model.bending.hinge[i] != 0.0 && !((work.e[i - 1] + work.e[i]).norm() >= kFoldBack))
+    if (model.bending.hinge[i] != 0.0 && !((kin.e[i - 1] + kin.e[i]).norm() >= kFoldBack))
       return {Evaluation::Outcome::fold_back, i};
   return {};
 }

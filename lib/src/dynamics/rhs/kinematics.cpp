@@ -10,7 +10,6 @@ namespace tendril {
 namespace {
 
 using Outcome = Evaluation::Outcome;
-using Workspace = System::Workspace;
 using lanes::Reader;
 using lanes::V3;
 using lanes::Writer;
@@ -30,11 +29,11 @@ TENDRIL_LANES void take_apart(const double* from, std::size_t count, Columns3& t
 
 /// Lengths and directions of edges [first, end), and their rates; true when one has no direction.
 template <bool Rates>
-TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Workspace& work) {
-  const Reader p(work.p), v(work.v);
-  const Writer to(work.e), rate(work.e_rate);
-  double *__restrict length = work.length.data(), *__restrict inverse = work.inverse_length.data(),
-         *__restrict length_rate = work.length_rate.data();
+TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Kinematics& kin) {
+  const Reader p(kin.p), v(kin.v);
+  const Writer to(kin.e), rate(kin.rate.e_rate);
+  double *__restrict length = kin.length.data(), *__restrict inverse = kin.inverse_length.data(),
+         *__restrict length_rate = kin.rate.length_rate.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
@@ -55,11 +54,11 @@ TENDRIL_INLINE bool measure(std::size_t first, std::size_t end, Workspace& work)
   }
   return bad != 0;
 }
-TENDRIL_LANES bool measure_positions(std::size_t first, std::size_t end, Workspace& work) {
-  return measure<false>(first, end, work);
+TENDRIL_LANES bool measure_positions(std::size_t first, std::size_t end, Kinematics& kin) {
+  return measure<false>(first, end, kin);
 }
-TENDRIL_LANES bool measure_all(std::size_t first, std::size_t end, Workspace& work) {
-  return measure<true>(first, end, work);
+TENDRIL_LANES bool measure_all(std::size_t first, std::size_t end, Kinematics& kin) {
+  return measure<true>(first, end, kin);
 }
 
 /// Where the reference directors are, what turns them, and where the nodes [first, end) stand in it.
@@ -75,10 +74,11 @@ struct Carried {
 /// ((t_s x t) . t') / (1 + t_s . t) = t_s . (t x t') / (1 + t_s . t). True, too, when a tangent turned too
 /// far for that.
 template <bool Rates, bool Twist, bool Near>
-TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  const Reader e(work.e), e_rate(work.e_rate);
-  const Writer to_t(work.frame.z), to_turning(work.turning), to_m(work.frame.y);
-  double* __restrict inverse = work.inverse_bisector.data(), * __restrict connection = work.connection.data();
+TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& from, Kinematics& kin) {
+  const Reader e(kin.e), e_rate(kin.rate.e_rate);
+  const Writer to_t(kin.frame.z), to_turning(kin.rate.turning), to_m(kin.frame.y);
+  double* __restrict inverse = kin.inverse_bisector.data(), * __restrict connection =
+                                                                kin.rate.connection.data();
   std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = first; i < end; ++i) {
@@ -113,21 +113,21 @@ TENDRIL_INLINE bool direct(std::size_t first, std::size_t end, const Carried& fr
 }
 
 TENDRIL_LANES bool direct_positions(std::size_t first, std::size_t end, const Carried& from,
-                                    Workspace& work) {
-  return direct<false, true, false>(first, end, from, work);
+                                    Kinematics& kin) {
+  return direct<false, true, false>(first, end, from, kin);
 }
-TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true, true, false>(first, end, from, work);
+TENDRIL_LANES bool direct_far(std::size_t first, std::size_t end, const Carried& from, Kinematics& kin) {
+  return direct<true, true, false>(first, end, from, kin);
 }
-TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true, true, true>(first, end, from, work);
+TENDRIL_LANES bool direct_near(std::size_t first, std::size_t end, const Carried& from, Kinematics& kin) {
+  return direct<true, true, true>(first, end, from, kin);
 }
 TENDRIL_LANES bool bisect_positions(std::size_t first, std::size_t end, const Carried& from,
-                                    Workspace& work) {
-  return direct<false, false, false>(first, end, from, work);
+                                    Kinematics& kin) {
+  return direct<false, false, false>(first, end, from, kin);
 }
-TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return direct<true, false, false>(first, end, from, work);
+TENDRIL_LANES bool bisect_all(std::size_t first, std::size_t end, const Carried& from, Kinematics& kin) {
+  return direct<true, false, false>(first, end, from, kin);
 }
 
 /// Whether all are at most kNearTurn.
@@ -137,82 +137,82 @@ TENDRIL_LANES bool turned_little(const double* theta, std::size_t count) {
   return far == 0;
 }
 
-bool direct_all(std::size_t first, std::size_t end, const Carried& from, Workspace& work) {
-  return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, work);
+bool direct_all(std::size_t first, std::size_t end, const Carried& from, Kinematics& kin) {
+  return (turned_little(from.theta, end - first) ? direct_near : direct_far)(first, end, from, kin);
 }
 
-void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Workspace& work) {
-  take_apart(y.data(), model.nodes, work.p);
-  take_apart(y.data() + model.v_begin(), model.nodes, work.v);
+void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Kinematics& kin) {
+  take_apart(y.data(), model.nodes, kin.p);
+  take_apart(y.data() + model.v_begin(), model.nodes, kin.v);
   for (std::size_t a = 0; a < model.anchors.size(); ++a) {
     const Anchor& anchor = model.anchors[a];
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
-    work.pose[a] = anchor.motion
-                       ? anchor.motion(t)
-                       : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
+    kin.pose[a] = anchor.motion
+                      ? anchor.motion(t)
+                      : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
     if (!anchor.holds_position) continue;
-    work.p.set(i, work.pose[a].position);
-    work.v.set(i, work.pose[a].velocity);
+    kin.p.set(i, kin.pose[a].position);
+    kin.v.set(i, kin.pose[a].velocity);
   }
   for (const Model::Ride& ride : model.rides) {
-    work.p.set(ride.root, work.p[ride.parent]);
-    work.v.set(ride.root, work.v[ride.parent]);
+    kin.p.set(ride.root, kin.p[ride.parent]);
+    kin.v.set(ride.root, kin.v[ride.parent]);
   }
 }
 
 /// The root of a child rod takes its frame from the node it rides on, which is known by then.
-void take_ride(const Model::Ride& ride, bool rates, Workspace& work) {
+void take_ride(const Model::Ride& ride, bool rates, Kinematics& kin) {
   const std::size_t i = ride.root;
-  const Frame f = work.frame[ride.parent];
+  const Frame f = kin.frame[ride.parent];
   const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
   const Frame frame{outside(ride.rest.x), outside(ride.rest.y), outside(ride.rest.z)};
-  work.frame.set(i, frame);
-  work.inverse_bisector[i] = 0.0;
-  work.connection[i] = 0.0;
+  kin.frame.set(i, frame);
+  kin.inverse_bisector[i] = 0.0;
+  kin.rate.connection[i] = 0.0;
   if (!rates) return;
-  const Vec3 turning = Vec3(work.turning[ride.parent]) + work.spin[ride.parent] * f.z;
-  work.spin[i] = turning.dot(frame.z);
-  work.turning.set(i, turning - work.spin[i] * frame.z);
+  const Vec3 turning = Vec3(kin.rate.turning[ride.parent]) + kin.spin[ride.parent] * f.z;
+  kin.spin[i] = turning.dot(frame.z);
+  kin.rate.turning.set(i, turning - kin.spin[i] * frame.z);
 }
 
-void take_held_frames(const Model& model, Workspace& work) {
+void take_held_frames(const Model& model, Kinematics& kin) {
   for (std::size_t a = 0; a < model.anchors.size(); ++a) {
     const Anchor& anchor = model.anchors[a];
     if (!anchor.holds_frame) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
-    const AnchorPose& pose = work.pose[a];
-    work.frame.set(i, pose.frame);
-    work.spin[i] = pose.angular_velocity.dot(pose.frame.z);
-    work.turning.set(i, pose.angular_velocity - work.spin[i] * pose.frame.z);
-    work.inverse_bisector[i] = 0.0;
-    work.connection[i] = 0.0;
+    const AnchorPose& pose = kin.pose[a];
+    kin.frame.set(i, pose.frame);
+    kin.spin[i] = pose.angular_velocity.dot(pose.frame.z);
+    kin.rate.turning.set(i, pose.angular_velocity - kin.spin[i] * pose.frame.z);
+    kin.inverse_bisector[i] = 0.0;
+    kin.rate.connection[i] = 0.0;
   }
 }
 
-void clear_ends(const Model& model, Workspace& work) {
+void clear_ends(const Model& model, Kinematics& kin) {
   for (const NodeRange& rod : model.rods) {
     const std::size_t last = rod.first + rod.count - 1;
-    work.e.set(last, Vec3::Zero());
-    work.e_rate.set(last, Vec3::Zero());
-    work.length[last] = work.inverse_length[last] = work.length_rate[last] = 0.0;
+    kin.e.set(last, Vec3::Zero());
+    kin.rate.e_rate.set(last, Vec3::Zero());
+    kin.length[last] = kin.inverse_length[last] = kin.rate.length_rate[last] = 0.0;
   }
 }
 
-Evaluation find_bad_edge(const Model& model, const Workspace& work) {
+Evaluation find_bad_edge(const Model& model, const Kinematics& kin) {
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      if (!std::isfinite(work.length[i])) return {Outcome::not_finite, i};
-      if (!(work.length[i] > 0.0)) return {Outcome::zero_edge, i};
+      if (!std::isfinite(kin.length[i])) return {Outcome::not_finite, i};
+      if (!(kin.length[i] > 0.0)) return {Outcome::zero_edge, i};
     }
   return {};
 }
 
 Evaluation find_bad_tangent(const Model& model, const State& reference, const Model::Segment& segment,
-                            const Workspace& work) {
+                            const Kinematics& kin) {
   for (std::size_t i = segment.first; i < segment.end; ++i) {
     if (model.holds_frame(i)) continue;
-    if (work.inverse_bisector[i] == 0.0) return {Outcome::fold_back, i};
-    if (segment.twist && !(1.0 + reference.tangent[i].dot(work.frame.z[i]) > kTurnedTooFar))
+    if (kin.inverse_bisector[i] == 0.0) return {Outcome::fold_back, i};
+    if (segment.twist && !(1.0 + reference.tangent[i].dot(kin.frame.z[i]) > kTurnedTooFar))
       return {Outcome::turned_too_far, i};
   }
   return {};
@@ -223,7 +223,7 @@ const double* numbers(const std::vector<Vec3>& v) {
 }
 
 Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y, Motion what,
-                       Workspace& work) {
+                       Kinematics& kin) {
   for (const Model::Segment& s : model.segments) {
     if (!s.twist && what == Motion::springs) continue;
     const bool positions = what == Motion::positions;
@@ -232,30 +232,35 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
       const Eigen::Index k = model.twist_index[s.first];
       from = {numbers(reference.tangent), numbers(reference.director), y.data() + model.theta_begin() + k};
       const double* spin = y.data() + model.spin_begin() + k;
-      std::copy(spin, spin + (s.end - s.first), &work.spin[s.first]);
+      std::copy(spin, spin + (s.end - s.first), &kin.spin[s.first]);
     }
     const auto fill =
         s.twist ? (positions ? direct_positions : direct_all) : (positions ? bisect_positions : bisect_all);
-    const bool bad = fill(s.first, s.end, from, work);
+    const bool bad = fill(s.first, s.end, from, kin);
     if (!bad) continue;
-    if (const Evaluation at = find_bad_tangent(model, reference, s, work); !at.ok()) return at;
+    if (const Evaluation at = find_bad_tangent(model, reference, s, kin); !at.ok()) return at;
   }
-  take_held_frames(model, work);
-  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::positions, work);
+  take_held_frames(model, kin);
+  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::positions, kin);
   return {};
 }
 
 }  // namespace
 
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
-                      Motion what, Workspace& work) {
+                      Motion what, Kinematics& kin) {
+  ++kin.number;
+  kin.whole = false;
   if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
-  set_nodes(model, t, y, work);
-  const bool bad = (what == Motion::positions ? measure_positions : measure_all)(0, model.nodes, work);
-  clear_ends(model, work);
+  set_nodes(model, t, y, kin);
+  const bool bad = (what == Motion::positions ? measure_positions : measure_all)(0, model.nodes, kin);
+  clear_ends(model, kin);
   if (bad)
-    if (const Evaluation at = find_bad_edge(model, work); !at.ok()) return at;
-  return take_frames(model, reference, y, what, work);
+    if (const Evaluation at = find_bad_edge(model, kin); !at.ok()) return at;
+  if (const Evaluation at = take_frames(model, reference, y, what, kin); !at.ok()) return at;
+  kin.whole = true;
+  kin.filled = what;
+  return {};
 }
 
 }  // namespace tendril

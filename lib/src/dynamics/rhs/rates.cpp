@@ -12,75 +12,79 @@
 
 namespace tendril {
 
-StateView view(const Model& model, double t, System::Workspace& work) {
+StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns& loads) {
+  assert(kin.has_rates() && kin.has_frames());
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    work.seen_p[i] = work.p[i];
-    work.seen_v[i] = work.v[i];
-    work.seen_t[i] = work.frame.z[i];
-    work.seen_m[i] = model.has_twist(i) ? work.frame.y[i] : Vec3(Vec3::Zero());
-    work.seen_spin[i] = work.spin[i];
+    loads.p[i] = kin.p[i];
+    loads.v[i] = kin.v[i];
+    loads.t[i] = kin.frame.z[i];
+    loads.m[i] = model.has_twist(i) ? kin.frame.y[i] : Vec3(Vec3::Zero());
+    loads.spin[i] = kin.spin[i];
   }
-  return {t,          work.seen_p, work.seen_v, work.seen_t, work.seen_spin,
-          model.mass, model.width, model.rods,  work.seen_m};
+  return {t, loads.p, loads.v, loads.t, loads.spin, model.mass, model.width, model.rods, loads.m};
 }
 
-Loads no_loads(System::Workspace& work) {
-  std::fill(work.load.begin(), work.load.end(), Vec3::Zero());
-  std::fill(work.torque.begin(), work.torque.end(), Vec3::Zero());
-  return {work.load, work.torque};
+Loads no_loads(const Kinematics& kin, LoadColumns& loads) {
+  loads.made.from(kin);
+  std::fill(loads.load.begin(), loads.load.end(), Vec3::Zero());
+  std::fill(loads.torque.begin(), loads.torque.end(), Vec3::Zero());
+  return {loads.load, loads.torque};
 }
 
 namespace {
 
 using Outcome = Evaluation::Outcome;
-using Workspace = System::Workspace;
 
-/// Adds the acting forces to the workspace's loads; returns the power of those without an
+/// Puts the acting forces into the loads; returns the power of those without an
 /// energy.
-double add_external(const Model& model, double t, Workspace& work) {
-  const StateView state = view(model, t, work);
-  const Loads loads = no_loads(work);
+double add_external(const Model& model, double t, const Kinematics& kin, LoadColumns& loads) {
+  const StateView state = view(model, t, kin, loads);
+  const Loads to = no_loads(kin, loads);
   for (const Model::Acting& acting : model.acting)
-    if (!acting.has_energy) acting.force->add(state, loads);
+    if (!acting.has_energy) acting.force->add(state, to);
   double power = 0.0;
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    const Vec3 turning = Vec3(work.turning[i]) + work.spin[i] * work.seen_t[i];
-    power += work.load[i].dot(work.seen_v[i]) + work.torque[i].dot(turning);
+    const Vec3 turning = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
+    power += loads.load[i].dot(loads.v[i]) + loads.torque[i].dot(turning);
   }
   for (const Model::Acting& acting : model.acting)
-    if (acting.has_energy) acting.force->add(state, loads);
+    if (acting.has_energy) acting.force->add(state, to);
   return power;
 }
 
 /// Torques across the tangent act through the tangent; see pull_back.
-void add_torques(const Model& model, Workspace& work) {
+void add_torques(const Model& model, const LoadColumns& loads, Gradient& grad) {
+  assert(loads.made.number == grad.made.number);
   for (std::size_t i = 0; i < model.nodes; ++i)
-    if (!work.torque[i].isZero(0.0)) work.g_tangent.add(i, -work.torque[i].cross(work.seen_t[i]));
+    if (!loads.torque[i].isZero(0.0)) grad.tangent.add(i, -loads.torque[i].cross(loads.t[i]));
 }
 
 /// Forces along all edges, and on the masses that anchors hold.
-void pull_on_held_nodes(const Model& model, Workspace& work) {
-  pull_on_edges(model, work);
+void pull_on_held_nodes(const Model& model, const Kinematics& kin, Gradient& grad, LoadColumns& loads,
+                        Pull& pull) {
+  pull_on_edges(model, kin, grad, loads, pull);
   for (const std::size_t i : model.driven_positions)
-    work.force.set(i, Vec3(work.edge_force[i]) - Vec3(work.edge_force[i - 1]));
+    pull.force.set(i, Vec3(pull.edge_force[i]) - Vec3(pull.edge_force[i - 1]));
 }
 
 /// Power that anchors put in: against the whole force on a held position and the whole torque on a held
 /// frame.
-double anchor_power(const Model& model, const Workspace& work) {
+double anchor_power(const Model& model, const Kinematics& kin, const Gradient& grad, const Pull& pull,
+                    const LoadColumns& loads) {
+  assert(grad.made.fits(kin));
   double power = 0.0;
   for (const std::size_t i : model.driven_frames)
-    power += work.g_tangent[i].dot(work.t_rate(i)) +
-             (work.g_spin[i] - (model.loaded ? work.torque[i].dot(work.frame.z[i]) : 0.0)) * work.spin[i];
+    power += grad.tangent[i].dot(kin.t_rate(i)) +
+             (grad.spin[i] - (model.loaded ? loads.torque[i].dot(kin.frame.z[i]) : 0.0)) * kin.spin[i];
   for (const std::size_t i : model.driven_positions)
-    power -= (work.force[i] + model.moved_mass[i] * model.gravity).dot(work.v[i]);
+    power -= (pull.force[i] + model.moved_mass[i] * model.gravity).dot(kin.v[i]);
   return power;
 }
 
 /// In eight sums, each in the order of the nodes, so that it may be vector code.
-TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
-  const double *__restrict vx = work.v.x.data(), *__restrict vy = work.v.y.data(),
-               *__restrict vz = work.v.z.data(), *__restrict spin = work.spin.data();
+TENDRIL_LANES double damping_power(const Model& model, const Kinematics& kin) {
+  const double *__restrict vx = kin.v.x.data(), *__restrict vy = kin.v.y.data(),
+               *__restrict vz = kin.v.z.data(), *__restrict spin = kin.spin.data();
   const double* __restrict mass = model.damped_mass.data(), * __restrict inertia =
                                                                 model.damped_inertia.data();
   constexpr std::size_t kSums = 8;
@@ -92,7 +96,7 @@ TENDRIL_LANES double damping_power(const Model& model, const Workspace& work) {
       sums[k] += mass[j] * (vx[j] * vx[j] + vy[j] * vy[j] + vz[j] * vz[j]) + inertia[j] * (spin[j] * spin[j]);
     }
   double power = 0.0;
-  for (; i < model.nodes; ++i) power += mass[i] * work.v[i].squaredNorm() + inertia[i] * (spin[i] * spin[i]);
+  for (; i < model.nodes; ++i) power += mass[i] * kin.v[i].squaredNorm() + inertia[i] * (spin[i] * spin[i]);
   for (const double sum : sums) power += sum;
   return -power;
 }
@@ -104,8 +108,9 @@ TENDRIL_INLINE std::int64_t no_number(double x) {
 /// v' of all nodes, from the forces on them, or from those along the edges where there is nothing else; 0
 /// where the position is held. False where one is not finite.
 template <bool ByEdges>
-TENDRIL_INLINE bool accelerate(const Model& model, const Workspace& work, double* __restrict dv) {
-  const lanes::Reader force(ByEdges ? work.edge_force : work.force), v(work.v);
+TENDRIL_INLINE bool accelerate(const Model& model, const Kinematics& kin, const Pull& pull,
+                               double* __restrict dv) {
+  const lanes::Reader force(ByEdges ? pull.edge_force : pull.force), v(kin.v);
   const double* __restrict inverse_mass = model.inverse_mass.data(), * __restrict damping =
                                                                          model.damping.data();
   const lanes::V3 gravity{model.gravity.x(), model.gravity.y(), model.gravity.z()};
@@ -125,11 +130,13 @@ TENDRIL_INLINE bool accelerate(const Model& model, const Workspace& work, double
   return bad == 0;
 }
 
-TENDRIL_LANES bool accelerate_by_edges(const Model& model, const Workspace& work, double* dv) {
-  return accelerate<true>(model, work, dv);
+TENDRIL_LANES bool accelerate_by_edges(const Model& model, const Kinematics& kin, const Pull& pull,
+                                       double* dv) {
+  return accelerate<true>(model, kin, pull, dv);
 }
-TENDRIL_LANES bool accelerate_by_masses(const Model& model, const Workspace& work, double* dv) {
-  return accelerate<false>(model, work, dv);
+TENDRIL_LANES bool accelerate_by_masses(const Model& model, const Kinematics& kin, const Pull& pull,
+                                        double* dv) {
+  return accelerate<false>(model, kin, pull, dv);
 }
 
 /// p' of all nodes; 0 where the position is held.
@@ -139,10 +146,10 @@ void move(const Model& model, const Eigen::VectorXd& y, Eigen::VectorXd& dy) {
 }
 
 /// theta' and w' of the nodes of a segment; 0 where the frame is held. False where one is not finite.
-TENDRIL_LANES bool turn(const Model& model, const Model::Segment& segment, const Workspace& work,
-                        double* __restrict turned, double* __restrict spun) {
-  const double *__restrict spin = work.spin.data(), *__restrict connection = work.connection.data(),
-               *__restrict g_spin = work.g_spin.data();
+TENDRIL_LANES bool turn(const Model& model, const Model::Segment& segment, const Kinematics& kin,
+                        const Gradient& grad, double* __restrict turned, double* __restrict spun) {
+  const double *__restrict spin = kin.spin.data(), *__restrict connection = kin.rate.connection.data(),
+               *__restrict g_spin = grad.spin.data();
   const double* __restrict inverse_inertia = model.inverse_inertia.data(), * __restrict damping =
                                                                                model.damping.data();
   std::int64_t bad = 0;
@@ -160,12 +167,12 @@ TENDRIL_LANES bool turn(const Model& model, const Model::Segment& segment, const
 }
 
 /// What external torques give the spins. False where one is not finite.
-bool add_spin_torques(const Model& model, const Workspace& work, Eigen::VectorXd& dy) {
+bool add_spin_torques(const Model& model, const LoadColumns& loads, Eigen::VectorXd& dy) {
   bool finite = true;
   for (std::size_t i = 0; i < model.nodes; ++i) {
     if (!model.has_twist(i)) continue;
     double& spun = dy[model.spin_begin() + model.twist_index[i]];
-    spun += model.inverse_inertia[i] * work.torque[i].dot(work.seen_t[i]);
+    spun += model.inverse_inertia[i] * loads.torque[i].dot(loads.t[i]);
     finite &= std::isfinite(spun);
   }
   return finite;
@@ -174,58 +181,61 @@ bool add_spin_torques(const Model& model, const Workspace& work, Eigen::VectorXd
 }  // namespace
 
 Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
-                 Eigen::VectorXd& dy, Workspace& work) {
+                 Eigen::VectorXd& dy, System::Workspace& work) {
+  auto& [kin, grad, loads, pull] = work;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
-  if (const Evaluation at = kinematics(model, reference, t, y, what, work); !at.ok()) return at;
+  if (const Evaluation at = kinematics(model, reference, t, y, what, kin); !at.ok()) return at;
   double heat = 0.0;
   if (!springs)
-    relax(model, true, work);
-  else if (const Evaluation at = elastic(model, reference, {true, true}, work, heat); !at.ok())
+    relax(model, true, kin, grad);
+  else if (const Evaluation at = elastic(model, reference, {true, true}, kin, grad, heat); !at.ok())
     return at;
   double power = -heat;
   if (model.loaded) {
-    power += add_external(model, t, work);
-    add_torques(model, work);
+    power += add_external(model, t, kin, loads);
+    add_torques(model, loads, grad);
   }
   const bool by_edges = !model.loaded && model.rides.empty();
   if (by_edges)
-    pull_on_held_nodes(model, work);
+    pull_on_held_nodes(model, kin, grad, loads, pull);
   else
-    pull_back(model, work);
-  power += anchor_power(model, work);
-  if (model.damped) power += damping_power(model, work);
+    pull_back(model, kin, grad, loads, pull);
+  power += anchor_power(model, kin, grad, pull, loads);
+  if (model.damped) power += damping_power(model, kin);
 
   dy.resize(model.size());
   move(model, y, dy);
   bool finite = std::isfinite(power);
   const auto accelerate_all = by_edges ? accelerate_by_edges : accelerate_by_masses;
-  finite &= accelerate_all(model, work, dy.data() + model.v_begin());
+  finite &= accelerate_all(model, kin, pull, dy.data() + model.v_begin());
   for (const Model::Segment& s : model.segments) {
     if (!s.twist) continue;
     const Eigen::Index k = model.twist_index[s.first];
-    finite &= turn(model, s, work, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
+    finite &=
+        turn(model, s, kin, grad, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
   }
-  if (model.loaded) finite &= add_spin_torques(model, work, dy);
+  if (model.loaded) finite &= add_spin_torques(model, loads, dy);
   dy[model.work_index()] = power;
   return finite ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
 }
 
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
-                                  Eigen::VectorXd& loads, Workspace& work) {
-  if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, work); !at.ok())
+                                  Eigen::VectorXd& out, System::Workspace& work) {
+  auto& [kin, grad, loads, pull] = work;
+  if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, kin); !at.ok())
     return at;
-  relax(model, false, work);
-  const StateView state = view(model, reference.time, work);
-  const Loads to = no_loads(work);
+  relax(model, false, kin, grad);
+  const StateView state = view(model, reference.time, kin, loads);
+  const Loads to = no_loads(kin, loads);
   for (const auto& force : model.scene.forces)
     if (force->depends_on_state() && !force->has_derivatives()) force->add(state, to);
-  add_torques(model, work);
-  pull_back(model, work);
-  loads.setZero(model.size());
+  add_torques(model, loads, grad);
+  pull_back(model, kin, grad, loads, pull);
+  out.setZero(model.size());
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    loads.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i)) = work.force[i];
+    out.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i)) = pull.force[i];
     if (model.has_twist(i))
-      loads[model.spin_begin() + model.twist_index[i]] = work.torque[i].dot(work.seen_t[i]) - work.g_spin[i];
+      out[model.spin_begin() + model.twist_index[i]] = loads.torque[i].dot(loads.t[i]) - grad.spin[i];
   }
   return {};
 }

@@ -8,15 +8,15 @@ namespace tendril {
 Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
                  Eigen::VectorXd& dy, System::Workspace& work);
 
-/// What forces see, from the workspace's kinematics with all rates.
-StateView view(const Model& model, double t, System::Workspace& work);
+/// What forces see, from kinematics with all rates.
+StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns& loads);
 
-/// The workspace's loads, set to zero.
-Loads no_loads(System::Workspace& work);
+/// Loads for forces to add to, set to zero.
+Loads no_loads(const Kinematics& kin, LoadColumns& loads);
 
 /// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
 /// and do not give their derivatives; everything else is 0.
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
-                                  Eigen::VectorXd& loads, System::Workspace& work);
+                                  Eigen::VectorXd& out, System::Workspace& work);
 
 }  // namespace tendril

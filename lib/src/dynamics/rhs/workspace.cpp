@@ -4,18 +4,23 @@
 
 namespace tendril {
 
-System::Workspace::Workspace(const Model& model) : pose(model.anchors.size()) {
+System::Workspace::Workspace(const System::Model& model) {
   const std::size_t n = model.nodes;
+  Kinematics& k = kinematics;
+  Gradient& g = gradient;
+  k.pose.resize(model.anchors.size());
+  // Columns that a loop walks along side by side get neighbouring ranks.
   std::size_t rank = 0;
-  for (auto* vectors : {&p, &v, &frame.y, &frame.z, &e, &e_rate, &turning, &g_bend, &g_before, &g_after,
-                        &g_tangent, &twist_tangent, &edge_force, &force})
+  for (auto* vectors : {&k.p, &k.v, &k.frame.y, &k.frame.z, &k.e, &k.rate.e_rate, &k.rate.turning, &g.bend,
+                        &g.before, &g.after, &g.tangent, &g.twist_tangent, &pull.edge_force, &pull.force})
     *vectors = Columns3(n, std::exchange(rank, rank + 3));
-  for (auto* numbers : {&length, &inverse_length, &length_rate, &inverse_bisector, &spin, &connection,
-                        &g_spin, &g_length, &twist_torque, &energy, &heat})
+  for (auto* numbers : {&k.length, &k.inverse_length, &k.rate.length_rate, &k.inverse_bisector, &k.spin,
+                        &k.rate.connection, &g.spin, &g.length, &g.twist_torque, &g.energy, &g.heat})
     *numbers = Column(n, rank++);
   if (!model.loaded) return;
-  for (auto* vectors : {&seen_p, &seen_v, &seen_t, &seen_m, &load, &torque}) vectors->assign(n, Vec3::Zero());
-  seen_spin.assign(n, 0.0);
+  for (auto* vectors : {&loads.p, &loads.v, &loads.t, &loads.m, &loads.load, &loads.torque})
+    vectors->assign(n, Vec3::Zero());
+  loads.spin.assign(n, 0.0);
 }
 
 }  // namespace tendril

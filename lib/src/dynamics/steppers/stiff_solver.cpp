@@ -155,18 +155,18 @@ class BlockSolver : public StiffSolver {
     if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
     const bool viscous = turning_.has_value();
     if (viscous && !add_viscous_gradient(state)) return -1;
-    visit_stiffness(model_, state, work_, viscous, -1.0, to_x_);
+    visit_stiffness(model_, state, work_.kinematics, work_.gradient, viscous, -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
-      if (viscous) visit_resistance(model_, work_, *to_u_);
+      if (viscous) visit_resistance(model_, work_.kinematics, *to_u_);
       // The rates of the frames are needed from here on.
-      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
       add_turning();
-      if (turning_ && !turning_->add(state, rate, work_, to_x_)) return -1;
+      if (turning_ && !turning_->add(state, rate, work_.kinematics, to_x_)) return -1;
     }
     if (loaded_) {
-      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return -1;
-      const StateView seen = view(model_, state.time, work_);
+      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
+      const StateView seen = view(model_, state.time, work_.kinematics, work_.loads);
       OwnDerivatives<B> own(model_, by_x_, *by_u_);
       for (const auto& force : model_.scene.forces)
         if (force->depends_on_state()) force->add_derivatives(seen, own);
@@ -289,13 +289,13 @@ class BlockSolver : public StiffSolver {
     add(2, 2, k[1][1]);
   }
 
-  /// The workspace's g_spin is no longer that of the springs alone; the gradient's is.
+  /// The workspace's gradient by the spins is no longer that of the springs alone; the gradient's is.
   void add_turning() {
     connections_.clear();
     for (std::size_t i = 0; i < model_.nodes; ++i) {
       if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
       const TurningTerms terms =
-          turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_);
+          turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_.kinematics);
       add_by_nodes(i, terms.by_x, to_x_);
       add_by_nodes(i, terms.by_v, *to_u_);
       const auto nodes = around(i);
@@ -310,11 +310,13 @@ class BlockSolver : public StiffSolver {
   /// After it the workspace holds the gradient with its viscous part, and the rates.
   bool add_viscous_gradient(const State& state) {
     double heat = 0.0;
-    if (!kinematics(model_, state, state.time, state.y, Motion::all, work_).ok()) return false;
-    if (!elastic(model_, state, {.viscous = true, .gyroscopic = false}, work_, heat).ok()) return false;
-    pull_back(model_, work_);
+    auto& [kin, grad, loads, pull] = work_;
+    if (!kinematics(model_, state, state.time, state.y, Motion::all, kin).ok()) return false;
+    if (!elastic(model_, state, {.viscous = true, .gyroscopic = false}, kin, grad, heat).ok()) return false;
+    no_loads(kin, loads);
+    pull_back(model_, kin, grad, loads, pull);
     for (std::size_t i = 0; i < model_.nodes; ++i)
-      if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = work_.g_spin[i];
+      if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = grad.spin[i];
     return true;
   }
 

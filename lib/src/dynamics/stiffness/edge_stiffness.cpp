@@ -8,8 +8,6 @@
 namespace tendril {
 namespace {
 
-using Workspace = System::Workspace;
-
 Mat3 projector(const Vec3& n) {
   return Mat3::Identity() - n * n.transpose();
 }
@@ -52,10 +50,10 @@ struct ByEdges {
 };
 
 /// Tangents as the normalised sums of their edges: t = T (e_before + e_after), T = (1 - t t^T) / |sum|.
-ByEdges by_edges(const Neighbourhood& n, const Workspace& work, const SpringStiffness& s) {
+ByEdges by_edges(const Neighbourhood& n, const Kinematics& kin, const SpringStiffness& s) {
   Mat3 share[2];
   for (std::size_t side = 0; side < 2; ++side)
-    share[side] = work.inverse_bisector[n.frame_of[side]] * projector(work.frame.z[n.frame_of[side]]);
+    share[side] = kin.inverse_bisector[n.frame_of[side]] * projector(kin.frame.z[n.frame_of[side]]);
   const Mat3 et[2] = {s.et[0] * share[0], s.et[1] * share[1]};
   const Mat3 tt[2] = {share[0] * s.tt[0] * share[0], share[1] * s.tt[1] * share[1]};
   const Mat3 t0_t1 = share[0] * s.t0_t1 * share[1];
@@ -89,15 +87,15 @@ ByEdges by_edges(const Neighbourhood& n, const Workspace& work, const SpringStif
 /// Curvature of the tangents t(e). What the edge's own springs give along a tangent counts with this edge;
 /// what all springs at the node give across it counts once, with the edge that begins there, at the last node
 /// with the last edge. (Across a free tangent the bending of its two edges cancels.)
-void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Workspace& work,
-                           const SpringStiffness& s, ByEdges& b) {
+void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Kinematics& kin,
+                           const Gradient& grad, const SpringStiffness& s, ByEdges& b) {
   for (std::size_t side = 0; side < 2; ++side) {
     const std::size_t node = n.frame_of[side];
     if (model.holds_frame(node) || (side == 0 && n.rides)) continue;
-    const Vec3 t = work.frame.z[node];
+    const Vec3 t = kin.frame.z[node];
     Vec3 g = s.g_t[side].dot(t) * t;
-    if (side == 0 || !model.has_after(node)) g += work.g_tangent[node];
-    const Mat3 c = curvature_of_unit(t, work.inverse_bisector[node], g);
+    if (side == 0 || !model.has_after(node)) g += grad.tangent[node];
+    const Mat3 c = curvature_of_unit(t, kin.inverse_bisector[node], g);
     for (const std::size_t x : {n.before(side), n.after(side)})
       for (const std::size_t y : {n.before(side), n.after(side)})
         if (x <= y) b.k[x][y] += c;
@@ -105,9 +103,9 @@ void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Wor
 }
 
 /// Gradient by the unit edge i: of its springs, and through its tangents.
-Vec3 gradient_by_edge(std::size_t i, const Workspace& work, const SpringStiffness& s) {
-  return s.g_e + work.inverse_bisector[i] * work.g_tangent[i] +
-         work.inverse_bisector[i + 1] * work.g_tangent[i + 1];
+Vec3 gradient_by_edge(std::size_t i, const Kinematics& kin, const Gradient& grad, const SpringStiffness& s) {
+  return s.g_e + kin.inverse_bisector[i] * grad.tangent[i] +
+         kin.inverse_bisector[i + 1] * grad.tangent[i + 1];
 }
 
 /// Where the positions and angles of a neighbourhood stand, and whether their rows act.
@@ -148,7 +146,7 @@ void put(const Neighbourhood& n, std::size_t x, std::size_t y, const Mat3& k, Ed
 }
 
 /// From unit edges to nodes, e = d / |d|.
-void to_nodes(const Neighbourhood& n, const Workspace& work, const ByEdges& b, const SpringStiffness& s,
+void to_nodes(const Neighbourhood& n, const Kinematics& kin, const ByEdges& b, const SpringStiffness& s,
               EdgeStiffness& to) {
   for (std::size_t a = 0; a < 5; ++a) {
     for (std::size_t c = a; c < 5; ++c) to.k[a][c].setZero();
@@ -156,11 +154,11 @@ void to_nodes(const Neighbourhood& n, const Workspace& work, const ByEdges& b, c
   }
   for (std::size_t x = 0; x < 4; ++x) {
     if (!n.there[x]) continue;
-    const Vec3 ex = work.e[n.edge[x]];
-    const double sx = work.inverse_length[n.edge[x]];
+    const Vec3 ex = kin.e[n.edge[x]];
+    const double sx = kin.inverse_length[n.edge[x]];
     for (std::size_t y = x; y < 4; ++y)
       if (n.there[y])
-        put(n, x, y, (sx * work.inverse_length[n.edge[y]]) * project(ex, b.k[x][y], work.e[n.edge[y]]), to);
+        put(n, x, y, (sx * kin.inverse_length[n.edge[y]]) * project(ex, b.k[x][y], kin.e[n.edge[y]]), to);
     for (std::size_t angle = 0; angle < 2; ++angle) {
       const Vec3 g = sx * (b.angle[x][angle] - ex.dot(b.angle[x][angle]) * ex);
       to.by_angle[n.from(x)][angle] -= g;
@@ -176,26 +174,26 @@ void to_nodes(const Neighbourhood& n, const Workspace& work, const ByEdges& b, c
 }  // namespace
 
 void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                    const Workspace& work, bool viscous, EdgeStiffness& to) {
+                    const Kinematics& kin, const Gradient& grad, bool viscous, EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
-  SpringStiffness springs = spring_stiffness(model, i, reference, work, viscous);
-  const Vec3 g_edge = gradient_by_edge(i, work, springs);
-  if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], springs);
-  ByEdges edges = by_edges(n, work, springs);
-  add_tangent_curvature(model, n, work, springs, edges);
-  to_nodes(n, work, edges, springs, to);
+  SpringStiffness springs = spring_stiffness(model, i, reference, kin, viscous);
+  const Vec3 g_edge = gradient_by_edge(i, kin, grad, springs);
+  if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  ByEdges edges = by_edges(n, kin, springs);
+  add_tangent_curvature(model, n, kin, grad, springs, edges);
+  to_nodes(n, kin, edges, springs, to);
   put(n, n.own, n.own,
-      curvature_of_unit(work.e[i], work.inverse_length[i], g_edge) + stretch_stiffness(model, i, work), to);
+      curvature_of_unit(kin.e[i], kin.inverse_length[i], g_edge) + stretch_stiffness(model, i, kin), to);
   place(model, n, i, to);
 }
 
-void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, const Workspace& work,
+void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, const Kinematics& kin,
                      EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
-  SpringStiffness springs = spring_resistance(model, i, work);
-  if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], springs);
-  to_nodes(n, work, by_edges(n, work, springs), springs, to);
-  put(n, n.own, n.own, model.stretch[i] * work.e[i] * work.e[i].transpose(), to);
+  SpringStiffness springs = spring_resistance(model, i, kin);
+  if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  to_nodes(n, kin, by_edges(n, kin, springs), springs, to);
+  put(n, n.own, n.own, model.stretch[i] * kin.e[i] * kin.e[i].transpose(), to);
   place(model, n, i, to);
 }
 
@@ -208,11 +206,11 @@ struct Slope {
   double theta[2] = {0.0, 0.0};
 };
 
-std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Workspace& work) {
+std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Kinematics& kin) {
   std::array<Slope, EdgeSlopes::kSprings> all;
   for (std::size_t side = 0; side < 2; ++side) {
-    const Frame f = work.frame[i + side];
-    const EdgeAngles a = edge_angles(work.e[i], f);
+    const Frame f = kin.frame[i + side];
+    const EdgeAngles a = edge_angles(kin.e[i], f);
     Slope& l = all[2 * side];
     l.e = f.x / a.cl;
     l.t[side] = -a.z * l.e;
@@ -222,8 +220,8 @@ std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Workspace
     m.t[side] = -a.z * m.e;
     m.theta[side] = -a.x / a.cm;
   }
-  const Vec3 ta = work.frame.z[i];
-  const Vec3 tb = work.frame.z[i + 1];
+  const Vec3 ta = kin.frame.z[i];
+  const Vec3 tb = kin.frame.z[i + 1];
   all[4].t[0] = all[4].t[1] = ta.cross(tb) / (1.0 + ta.dot(tb));
   all[4].theta[0] = -1.0;
   all[4].theta[1] = 1.0;
@@ -247,20 +245,20 @@ Vec3 carried_spin(const Vec3& from, const Vec3& t) {
 }  // namespace
 
 void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                 const Workspace& work, EdgeSlopes& to) {
+                 const Kinematics& kin, EdgeSlopes& to) {
   const Neighbourhood n(model, rod, i);
-  std::array<Slope, EdgeSlopes::kSprings> all = slopes_of(i, work);
+  std::array<Slope, EdgeSlopes::kSprings> all = slopes_of(i, kin);
   Vec3 spin[2];
   for (std::size_t side = 0; side < 2; ++side)
-    spin[side] = carried_spin(reference.tangent[n.frame_of[side]], work.frame.z[n.frame_of[side]]);
+    spin[side] = carried_spin(reference.tangent[n.frame_of[side]], kin.frame.z[n.frame_of[side]]);
   for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
     Slope& s = all[q];
-    if (n.rides) ride(work.frame.z[n.frame_of[0]], work.frame.z[i], s);
+    if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], s);
     Vec3 share[2];
     for (std::size_t side = 0; side < 2; ++side) {
-      const Vec3 t = work.frame.z[n.frame_of[side]];
+      const Vec3 t = kin.frame.z[n.frame_of[side]];
       const Vec3 g = s.t[side] - s.theta[side] * spin[side];
-      share[side] = work.inverse_bisector[n.frame_of[side]] * (g - t.dot(g) * t);
+      share[side] = kin.inverse_bisector[n.frame_of[side]] * (g - t.dot(g) * t);
       to.angle[q][side] = s.theta[side];
     }
     for (Vec3& g : to.node[q]) g.setZero();
@@ -269,8 +267,8 @@ void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const 
       Vec3 g = x == n.own ? s.e : Vec3::Zero();
       for (std::size_t side = 0; side < 2; ++side)
         if (x == n.before(side) || x == n.after(side)) g += share[side];
-      const Vec3 e = work.e[n.edge[x]];
-      const Vec3 along = work.inverse_length[n.edge[x]] * (g - e.dot(g) * e);
+      const Vec3 e = kin.e[n.edge[x]];
+      const Vec3 along = kin.inverse_length[n.edge[x]] * (g - e.dot(g) * e);
       to.node[q][n.from(x)] -= along;
       to.node[q][n.to(x)] += along;
     }
@@ -306,17 +304,17 @@ void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, 
   }
 }
 
-Mat3 stretch_stiffness(const Model& model, std::size_t i, const Workspace& work) {
-  const Vec3 e = work.e[i];
-  const double tension = model.stretch[i] * (1.0 - model.rest_length[i] * work.inverse_length[i]);
+Mat3 stretch_stiffness(const Model& model, std::size_t i, const Kinematics& kin) {
+  const Vec3 e = kin.e[i];
+  const double tension = model.stretch[i] * (1.0 - model.rest_length[i] * kin.inverse_length[i]);
   return (model.stretch[i] - tension) * e * e.transpose() + tension * Mat3::Identity();
 }
 
-Mat3 turned_pull(const Model& model, std::size_t i, const Workspace& work) {
-  const Vec3 e = work.e[i];
-  const Vec3 v = Vec3(work.v[i + 1]) - Vec3(work.v[i]);
+Mat3 turned_pull(const Model& model, std::size_t i, const Kinematics& kin) {
+  const Vec3 e = kin.e[i];
+  const Vec3 v = Vec3(kin.v[i + 1]) - Vec3(kin.v[i]);
   const double along = e.dot(v);
-  const double k = model.viscosity[i] * model.stretch[i] * work.inverse_length[i];
+  const double k = model.viscosity[i] * model.stretch[i] * kin.inverse_length[i];
   return k * (e * (v - 2 * along * e).transpose() + along * Mat3::Identity());
 }
 
@@ -347,12 +345,12 @@ Mat3 by_edge(const ByCosine& w, const Vec3& e, const Vec3& t, double z, double i
 
 }  // namespace
 
-HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Workspace& work) {
-  const Vec3 a = work.e[i - 1];
-  const Vec3 b = work.e[i];
+HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Kinematics& kin) {
+  const Vec3 a = kin.e[i - 1];
+  const Vec3 b = kin.e[i];
   const double z = a.dot(b);
-  const double la = work.inverse_length[i - 1];
-  const double lb = work.inverse_length[i];
+  const double la = kin.inverse_length[i - 1];
+  const double lb = kin.inverse_length[i];
   const ByCosine w = by_cosine(0.5 * model.bending.hinge[i], a.cross(b).norm(), z);
   const Vec3 u = la * (b - z * a);
   const Vec3 v = lb * (a - z * b);
@@ -362,12 +360,12 @@ HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Workspac
           by_edge(w, b, a, z, lb)};
 }
 
-Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const Workspace& work) {
-  const Vec3 e = work.e[i];
-  const Vec3 t = work.frame.z[node];
+Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const Kinematics& kin) {
+  const Vec3 e = kin.e[i];
+  const Vec3 t = kin.frame.z[node];
   const double z = e.dot(t);
   const ByCosine w = by_cosine(model.bend_l[node] + model.bend_t[node], e.cross(t).norm(), z);
-  return by_edge(w, e, t, z, work.inverse_length[i]);
+  return by_edge(w, e, t, z, kin.inverse_length[i]);
 }
 
 }  // namespace tendril

@@ -32,11 +32,11 @@ struct EdgeStiffness {
 /// weighted with slopes counts that part too. How the directions of the viscous forces turn:
 /// turned_resistance.
 void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                    const System::Workspace& work, bool viscous, EdgeStiffness& to);
+                    const Kinematics& kin, const Gradient& grad, bool viscous, EdgeStiffness& to);
 
 /// Resistance of edge i in the same coordinates: sum k grad q grad q^T over stretch, the two deviations and
 /// the twist. Times the viscosity it is minus the viscous forces' derivative by the velocities.
-void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, const System::Workspace& work,
+void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, const Kinematics& kin,
                      EdgeStiffness& to);
 
 /// Gradients of what the bending and twist springs of one edge see (the two deviations at either end, the
@@ -50,7 +50,7 @@ struct EdgeSlopes {
 /// At any state near the reference, so that their rate along a motion is the derivative of q' by the
 /// coordinates; the workspace must hold its places and frames.
 void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                 const System::Workspace& work, EdgeSlopes& to);
+                 const Kinematics& kin, EdgeSlopes& to);
 
 /// How the directions of edge i's viscous bending and twist turn: sum k grad q (d grad q / dt)^T, q' being
 /// grad q . x' and so its derivative by x the rate of grad q. Rows by columns, not symmetric.
@@ -64,20 +64,20 @@ void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, 
                        const EdgeSlopes& rates, TurnedResistance& to);
 
 /// Stretch of edge i, by the vector d along it: k e e^T + k (1 - L / l) (1 - e e^T).
-Mat3 stretch_stiffness(const Model& model, std::size_t i, const System::Workspace& work);
+Mat3 stretch_stiffness(const Model& model, std::size_t i, const Kinematics& kin);
 
 /// Derivative of the viscous pull k beta (e.v) e of edge i by the vector d along it, v its rate:
 /// k beta (e (v - (e.v) e)^T + (e.v) (1 - e e^T)) / l. Needs the velocities.
-Mat3 turned_pull(const Model& model, std::size_t i, const System::Workspace& work);
+Mat3 turned_pull(const Model& model, std::size_t i, const Kinematics& kin);
 
 /// 1/4 K phi^2 at node i of a rod without twist, by the vectors along its two edges.
 struct HingeStiffness {
   Mat3 first, mixed, second;
 };
-HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const System::Workspace& work);
+HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Kinematics& kin);
 
 /// 1/2 K angle^2 between edge i and the held frame of `node` at one of its ends, by the vector along the
 /// edge.
-Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const System::Workspace& work);
+Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const Kinematics& kin);
 
 }  // namespace tendril

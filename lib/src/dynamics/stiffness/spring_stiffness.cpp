@@ -5,8 +5,6 @@
 namespace tendril {
 namespace {
 
-using Workspace = System::Workspace;
-
 Mat3 projector(const Vec3& n) {
   return Mat3::Identity() - n * n.transpose();
 }
@@ -93,17 +91,17 @@ DeviationRates deviation_rates(const Frame& f, const EdgeAngles& at, const Vec3&
           (e_rate.dot(f.y) - f.y.dot(t_rate) * at.z - spin * at.x) / at.cm};
 }
 
-void add_bending(const Model& model, std::size_t i, std::size_t side, double viscosity, const Workspace& work,
+void add_bending(const Model& model, std::size_t i, std::size_t side, double viscosity, const Kinematics& kin,
                  SpringStiffness& s) {
   const std::size_t node = i + side;
   const std::size_t end = 2 * i + side;
-  const Vec3 e = work.e[i];
-  const Frame f = work.frame[node];
+  const Vec3 e = kin.e[i];
+  const Frame f = kin.frame[node];
   const EdgeAngles a = edge_angles(e, f);
   double l = a.l - model.rest_l[end];
   double m = a.m - model.rest_m[end];
   if (viscosity > 0.0) {
-    const DeviationRates rate = deviation_rates(f, a, work.e_rate[i], work.t_rate(node), work.spin[node]);
+    const DeviationRates rate = deviation_rates(f, a, kin.rate.e_rate[i], kin.t_rate(node), kin.spin[node]);
     l += viscosity * rate.l;
     m += viscosity * rate.m;
   }
@@ -131,9 +129,9 @@ void add_twist_gradient(double stiffness, const Vec3& c, SpringStiffness& s) {
 
 /// tau = theta_b - theta_a + a function of the tangents, whose gradient away from the reference is
 /// c + (t_s x t) / (1 + t_s.t) at a and c minus the like at b, c = (t_a x t_b) / (1 + t_a.t_b).
-void add_twist(const Model& model, std::size_t i, const Workspace& work, double strain, SpringStiffness& s) {
-  const Vec3 ta = work.frame.z[i];
-  const Vec3 tb = work.frame.z[i + 1];
+void add_twist(const Model& model, std::size_t i, const Kinematics& kin, double strain, SpringStiffness& s) {
+  const Vec3 ta = kin.frame.z[i];
+  const Vec3 tb = kin.frame.z[i + 1];
   const double k = 1.0 + ta.dot(tb);
   const Vec3 c = ta.cross(tb) / k;
   const double torque = model.twist[i] * strain;
@@ -165,34 +163,34 @@ Mat3 curvature_of_unit(const Vec3& n, double inverse_length, const Vec3& g) {
 }
 
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const Workspace& work, bool viscous) {
+                                 const Kinematics& kin, bool viscous) {
   SpringStiffness s;
   const double viscosity = viscous ? model.viscosity[i] : 0.0;
-  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, viscosity, work, s);
-  const double raw = twist_angle(work.frame[i], work.frame[i + 1]);
+  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, viscosity, kin, s);
+  const double raw = twist_angle(kin.frame[i], kin.frame[i + 1]);
   const double tau = reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI);
   double strain = tau - model.rest_twist[i];
   if (viscosity > 0.0) {
-    const Vec3 ta = work.frame.z[i];
-    const Vec3 tb = work.frame.z[i + 1];
-    const Vec3 turning = work.t_rate(i) + work.t_rate(i + 1);
-    strain += viscosity * (work.spin[i + 1] - work.spin[i] + ta.cross(tb).dot(turning) / (1.0 + ta.dot(tb)));
+    const Vec3 ta = kin.frame.z[i];
+    const Vec3 tb = kin.frame.z[i + 1];
+    const Vec3 turning = kin.t_rate(i) + kin.t_rate(i + 1);
+    strain += viscosity * (kin.spin[i + 1] - kin.spin[i] + ta.cross(tb).dot(turning) / (1.0 + ta.dot(tb)));
   }
-  add_twist(model, i, work, strain, s);
+  add_twist(model, i, kin, strain, s);
   return s;
 }
 
-SpringStiffness spring_resistance(const Model& model, std::size_t i, const Workspace& work) {
+SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinematics& kin) {
   SpringStiffness s;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::size_t node = i + side;
-    const Frame f = work.frame[node];
-    const EdgeAngles a = edge_angles(work.e[i], f);
+    const Frame f = kin.frame[node];
+    const EdgeAngles a = edge_angles(kin.e[i], f);
     add(along_l(f, a), side, 0.0, model.bend_l[node] / (a.cl * a.cl), s);
     add(along_m(f, a), side, 0.0, model.bend_m[node] / (a.cm * a.cm), s);
   }
-  const Vec3 ta = work.frame.z[i];
-  const Vec3 tb = work.frame.z[i + 1];
+  const Vec3 ta = kin.frame.z[i];
+  const Vec3 tb = kin.frame.z[i + 1];
   add_twist_gradient(model.twist[i], ta.cross(tb) / (1.0 + ta.dot(tb)), s);
   return s;
 }

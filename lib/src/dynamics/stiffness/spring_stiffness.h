@@ -26,10 +26,10 @@ struct SpringStiffness {
 /// Second derivatives of the energy of edge i; needs its kinematics.
 /// \param viscous  each slope is that of strain + beta strain', as the forces are, which needs the rates
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const System::Workspace& work, bool viscous);
+                                 const Kinematics& kin, bool viscous);
 
 /// sum k grad q grad q^T over the two deviations at either end and the twist of edge i.
-SpringStiffness spring_resistance(const Model& model, std::size_t i, const System::Workspace& work);
+SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinematics& kin);
 
 /// Turns the derivatives by the first node's own (t_0, theta_0) into those by (t, theta) of a frame it is
 /// fixed to. With d = t' - t that frame turns by phi = t x d + theta t + theta d / 2, which takes t_0 by

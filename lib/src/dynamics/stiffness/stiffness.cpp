@@ -43,7 +43,7 @@ Evaluation elastic_stiffness(const System& system, const State& state, Eigen::Sp
       !at.ok())
     return at;
   Triplets triplets(model);
-  visit_stiffness(model, state, work, false, 1.0, triplets);
+  visit_stiffness(model, state, work.kinematics, work.gradient, false, 1.0, triplets);
   stiffness.resize(gradient.size(), gradient.size());
   stiffness.setFromTriplets(triplets.entries.begin(), triplets.entries.end());
   return {};

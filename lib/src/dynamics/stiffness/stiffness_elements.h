@@ -72,34 +72,35 @@ void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sin
 
 /// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
 template <class Sink>
-void visit_stiffness(const Model& model, const State& reference, const System::Workspace& work, bool viscous,
-                     double scale, Sink& sink) {
+void visit_stiffness(const Model& model, const State& reference, const Kinematics& kin, const Gradient& grad,
+                     bool viscous, double scale, Sink& sink) {
+  assert(kin.has_frames() && grad.made.fits(kin));
   EdgeStiffness edge;
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       if (model.has_twist(i)) {
-        edge_stiffness(model, rod, i, reference, work, viscous, edge);
+        edge_stiffness(model, rod, i, reference, kin, grad, viscous, edge);
         visit(edge, scale, sink);
         continue;
       }
-      visit_edge(i, stretch_stiffness(model, i, work), scale, sink);
-      if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, work), scale, sink);
+      visit_edge(i, stretch_stiffness(model, i, kin), scale, sink);
+      if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, kin), scale, sink);
     }
   for (const std::size_t node : model.bending.held_hinges) {
     if (model.has_before(node))
-      visit_edge(node - 1, held_hinge_stiffness(model, node, node - 1, work), scale, sink);
-    if (model.has_after(node)) visit_edge(node, held_hinge_stiffness(model, node, node, work), scale, sink);
+      visit_edge(node - 1, held_hinge_stiffness(model, node, node - 1, kin), scale, sink);
+    if (model.has_after(node)) visit_edge(node, held_hinge_stiffness(model, node, node, kin), scale, sink);
   }
 }
 
 /// The same for the resistance, times minus the viscosity.
 template <class Sink>
-void visit_resistance(const Model& model, const System::Workspace& work, Sink& sink) {
+void visit_resistance(const Model& model, const Kinematics& kin, Sink& sink) {
   EdgeStiffness edge;
   for (const NodeRange& rod : model.rods)
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       if (!(model.viscosity[i] > 0.0)) continue;
-      edge_resistance(model, rod, i, work, edge);
+      edge_resistance(model, rod, i, kin, edge);
       visit(edge, -model.viscosity[i], sink);
     }
 }

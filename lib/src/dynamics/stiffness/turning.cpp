@@ -26,14 +26,15 @@ Mat3 project_left(const Mat3& a, const Vec3& e) {
 //   M = -s^2 ((g_s / 2 + I w t.b') [t]x + I w (2 g t^T + t g^T)),
 // with b' = s (e_0' + e_1') and V_j = -(e_j.d_j' / |d_j| (1 - e e^T) + e' e^T + e e'^T) / |d_j| the
 // derivative of e_j' by d_j.
-TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const System::Workspace& work) {
-  const Vec3 t = work.frame.z[i];
-  const Vec3 t_rate = work.t_rate(i);
-  const double s = work.inverse_bisector[i];
+TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const Kinematics& kin) {
+  assert(kin.has_rates());
+  const Vec3 t = kin.frame.z[i];
+  const Vec3 t_rate = kin.t_rate(i);
+  const double s = kin.inverse_bisector[i];
   const double inertia = model.inertia[i];
-  const double momentum = inertia * work.spin[i];
+  const double momentum = inertia * kin.spin[i];
   const Vec3 g = t.cross(t_rate);
-  const double along = s * t.dot(work.e_rate[i - 1] + work.e_rate[i]);
+  const double along = s * t.dot(kin.rate.e_rate[i - 1] + kin.rate.e_rate[i]);
   const Mat3 cross = cross_matrix(t);
   const Mat3 m = (-s * s) * ((0.5 * g_spin + momentum * along) * cross +
                              momentum * (2.0 * g * t.transpose() + t * g.transpose()));
@@ -41,16 +42,16 @@ TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, con
   TurningTerms to;
   for (std::size_t j = 0; j < 2; ++j) {
     const std::size_t edge = i + j - 1;
-    const Vec3 e = work.e[edge];
-    const Vec3 e_rate = work.e_rate[edge];
-    const double inverse = work.inverse_length[edge];  // 0 where there is no edge
+    const Vec3 e = kin.e[edge];
+    const Vec3 e_rate = kin.rate.e_rate[edge];
+    const double inverse = kin.inverse_length[edge];  // 0 where there is no edge
     const Mat3 turned = (s * s * momentum * inverse) * project_right(cross, e);
     const Mat3 by_x =
-        inverse * project_right(m, e) - (inverse * work.length_rate[edge]) * turned -
+        inverse * project_right(m, e) - (inverse * kin.rate.length_rate[edge]) * turned -
         (s * s * momentum * inverse) * (t.cross(e_rate) * e.transpose() + t.cross(e) * e_rate.transpose());
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vec3 other = work.e[i + k - 1];
-      const double other_inverse = work.inverse_length[i + k - 1];
+      const Vec3 other = kin.e[i + k - 1];
+      const double other_inverse = kin.inverse_length[i + k - 1];
       to.by_v[k][j] = other_inverse * project_left(turned, other);
       to.by_x[k][j] = other_inverse * project_left(by_x, other);
     }

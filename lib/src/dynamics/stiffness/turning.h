@@ -19,7 +19,7 @@ struct TurningTerms {
   Vec3 connection[2];           ///< theta' by d_k
 };
 
-/// Needs the workspace's kinematics with all rates.
-TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const System::Workspace& work);
+/// Needs kinematics with all rates.
+TurningTerms turning_terms(const Model& model, std::size_t i, double g_spin, const Kinematics& kin);
 
 }  // namespace tendril

@@ -19,23 +19,23 @@ class ViscousTurning {
     for (auto& slopes : slopes_) slopes.resize(model.nodes);
   }
 
-  /// Adds it to a sink, minus sign included. The workspace must hold the state's kinematics with all rates,
-  /// and does so again after it.
+  /// Adds it to a sink, minus sign included.
   /// \param rate  y' at the state
+  /// \param kin   its kinematics with all rates, and so again after it
   /// \return  false where the equations fail beside the state
   template <class Sink>
-  bool add(const State& state, const Eigen::VectorXd& rate, System::Workspace& work, Sink& sink) {
-    const double step = turning_step(work);
-    if (!take(state, rate, -step, work, slopes_[0]) || !take(state, rate, step, work, slopes_[1]))
-      return false;
-    if (!kinematics(model_, state, state.time, state.y, Motion::all, work).ok()) return false;
+  bool add(const State& state, const Eigen::VectorXd& rate, Kinematics& kin, Sink& sink) {
+    assert(kin.has_rates() && kin.has_frames());
+    const double step = turning_step(kin);
+    if (!take(state, rate, -step, kin, slopes_[0]) || !take(state, rate, step, kin, slopes_[1])) return false;
+    if (!kinematics(model_, state, state.time, state.y, Motion::all, kin).ok()) return false;
     for_edges([&](const NodeRange& rod, std::size_t i) {
       EdgeSlopes& rates = slopes_[1][i];
       differentiate(slopes_[0][i], 2 * step, rates);
-      edge_slopes(model_, rod, i, state, work, slopes_[0][i]);
+      edge_slopes(model_, rod, i, state, kin, slopes_[0][i]);
       turned_resistance(model_, rod, i, slopes_[0][i], rates, turned_);
       visit(turned_, -model_.viscosity[i], sink);
-      const Mat3 pull = turned_pull(model_, i, work);
+      const Mat3 pull = turned_pull(model_, i, kin);
       for (const std::size_t row : {i, i + 1})
         for (const std::size_t column : {i, i + 1})
           if (model_.feels[row])
@@ -53,15 +53,15 @@ class ViscousTurning {
   }
 
   /// Slopes a little earlier or later.
-  bool take(const State& state, const Eigen::VectorXd& rate, double h, System::Workspace& work,
+  bool take(const State& state, const Eigen::VectorXd& rate, double h, Kinematics& kin,
             std::vector<EdgeSlopes>& to) {
     const Eigen::Index n3 = model_.v_begin();
     const auto m = static_cast<Eigen::Index>(model_.twist_nodes);
     moved_ = state.y;
     moved_.head(n3) += h * rate.head(n3);
     moved_.segment(model_.theta_begin(), m) += h * rate.segment(model_.theta_begin(), m);
-    if (!kinematics(model_, state, state.time + h, moved_, Motion::positions, work).ok()) return false;
-    for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, work, to[i]); });
+    if (!kinematics(model_, state, state.time + h, moved_, Motion::positions, kin).ok()) return false;
+    for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, kin, to[i]); });
     return true;
   }
 
@@ -74,11 +74,11 @@ class ViscousTurning {
   }
 
   /// In which nothing turns by more than 1e-5. The bound matters where next to nothing turns.
-  double turning_step(const System::Workspace& work) const {
+  double turning_step(const Kinematics& kin) const {
     double fastest = 1e-2;
     for (std::size_t i = 0; i < model_.nodes; ++i)
-      fastest = std::max(
-          {fastest, Vec3(work.e_rate[i]).norm(), Vec3(work.turning[i]).norm(), std::abs(work.spin[i])});
+      fastest = std::max({fastest, Vec3(kin.rate.e_rate[i]).norm(), Vec3(kin.rate.turning[i]).norm(),
+                          std::abs(kin.spin[i])});
     return 1e-5 / fastest;
   }
 

@@ -67,14 +67,15 @@ Evaluation System::derivative(const State& reference, double t, const Eigen::Vec
 Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,
                                     double& energy, Eigen::VectorXd& gradient, Workspace& work) const {
   const Model& model = *model_;
-  if (const Evaluation at = kinematics(model, reference, t, y, Motion::positions, work); !at.ok()) return at;
-  if (const Evaluation at = elastic_energy(model, reference, work, energy); !at.ok()) return at;
-  no_loads(work);
-  pull_back(model, work);
+  auto& [kin, grad, loads, pull] = work;
+  if (const Evaluation at = kinematics(model, reference, t, y, Motion::positions, kin); !at.ok()) return at;
+  if (const Evaluation at = elastic_energy(model, reference, kin, grad, energy); !at.ok()) return at;
+  no_loads(kin, loads);
+  pull_back(model, kin, grad, loads, pull);
   gradient.resize(model.v_begin() + static_cast<Eigen::Index>(model.twist_nodes));
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = -work.force[i];
-    if (model.has_twist(i)) gradient[model.v_begin() + model.twist_index[i]] = work.g_spin[i];
+    gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = -pull.force[i];
+    if (model.has_twist(i)) gradient[model.v_begin() + model.twist_index[i]] = grad.spin[i];
   }
   return {};
 }
@@ -82,18 +83,19 @@ Evaluation System::elastic_gradient(const State& reference, double t, const Eige
 Energies System::energies(const State& state, Workspace& work) const {
   const Model& model = *model_;
   Energies result;
+  auto& [kin, grad, loads, pull] = work;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
   if (!all_finite(state.y)) return result;
-  if (!kinematics(model, state, state.time, state.y, what, work).ok()) return result;
-  if (!elastic_energy(model, state, work, result.elastic).ok()) return result;
+  if (!kinematics(model, state, state.time, state.y, what, kin).ok()) return result;
+  if (!elastic_energy(model, state, kin, grad, result.elastic).ok()) return result;
   for (std::size_t i = 0; i < model.nodes; ++i) {
-    if (!model.holds_position(i)) result.kinetic += 0.5 * model.moved_mass[i] * work.v[i].squaredNorm();
+    if (!model.holds_position(i)) result.kinetic += 0.5 * model.moved_mass[i] * kin.v[i].squaredNorm();
     if (model.has_twist(i) && !model.holds_frame(i))
-      result.kinetic += 0.5 * model.inertia[i] * work.spin[i] * work.spin[i];
-    result.potential -= model.mass[i] * model.gravity.dot(work.p[i]);
+      result.kinetic += 0.5 * model.inertia[i] * kin.spin[i] * kin.spin[i];
+    result.potential -= model.mass[i] * model.gravity.dot(kin.p[i]);
   }
   if (!model.loaded) return result;
-  const StateView seen = view(model, state.time, work);
+  const StateView seen = view(model, state.time, kin, loads);
   for (const Model::Acting& acting : model.acting)
     if (acting.has_energy) result.potential += acting.force->energy(seen);
   return result;
