@@ -107,7 +107,8 @@ inline TrianglePair degenerate_pair(Random& random) {
   return p;
 }
 
-/// On the grid but for a hair: some zeros are 2^-60 to 2^-99 instead, less than any rounding of their neighbours.
+/// On the grid but for a hair: some zeros are 2^-60 to 2^-99 instead, less than any rounding of their
+/// neighbours.
 inline TrianglePair hair_pair(Random& random) {
   TrianglePair p = grid_pair(random);
   for (std::size_t i = 0; i < 6; ++i)

@@ -8,7 +8,8 @@ namespace tendril {
 /// relative to the largest energy seen.
 class EnergyBalance {
  public:
-  /// Begins at a state. \param system, work  kept by reference
+  /// Begins at a state.
+  /// \param system, work  kept by reference
   EnergyBalance(const System& system, System::Workspace& work, const State& state);
 
   void scale_at_least(double energy) { scale_ = energy > scale_ ? energy : scale_; }

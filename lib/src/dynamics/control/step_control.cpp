@@ -7,7 +7,7 @@
 namespace tendril {
 namespace {
 
-constexpr double kSafety = 0.93;  // thesis 3.34
+constexpr double kSafety = 0.93;  // [Chan 2008] 3.34
 constexpr double kStiffSafety = 0.85;
 constexpr double kShrink = 0.2;  // bounds of the factor
 constexpr double kGrow = 5.0;

@@ -6,18 +6,20 @@
 
 namespace tendril {
 
-/// The next step from the errors of the last ones, all relative to the tolerance: thesis 3.34, and for stiff
-/// methods Gustafsson's predictive control.
+/// The next step from the errors of the last ones, all relative to the tolerance: [Chan 2008] 3.34, and for
+/// stiff methods predictive control [Gustafsson 1994].
 class StepControl {
  public:
-  /// Where no step is known yet, or the last one was given up. \param h  positive
+  /// Where no step is known yet, or the last one was given up.
+  /// \param h  positive
   void begin(double h);
 
   double step() const { return *step_; }
   /// What the last error would have allowed, without the bounds of a factor.
   double wish() const { return wish_.value_or(*step_); }
 
-  /// A step was tried in vain. \param error  none where it could not be evaluated
+  /// A step was tried in vain.
+  /// \param error  none where it could not be evaluated
   void reject(double h, std::optional<double> error);
   /// There is no step at all.
   void give_up() { step_.reset(); }

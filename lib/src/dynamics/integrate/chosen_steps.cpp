@@ -145,7 +145,7 @@ void ChosenSteps::stop_without_step(const Evaluation& why) {
          sentence("at time ", state_.time, ": no step above ", least_step(), " meets the tolerance"));
   else
     stop(Stop::not_evaluable,
-         sentence("at time ", state_.time, ", ", place(why.node), ": ", describe(why.outcome)));
+         sentence("at time ", state_.time, ", ", name_of(why.node), ": ", describe(why.outcome)));
 }
 
 void ChosenSteps::accept(const Aim& aim, double error) {

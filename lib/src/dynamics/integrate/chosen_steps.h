@@ -6,8 +6,8 @@
 
 namespace tendril {
 
-/// A run whose steps are chosen by their errors (thesis 3.34), those of an explicit method under the guard
-/// against amplified oscillations.
+/// A run whose steps are chosen by their errors ([Chan 2008] 3.34), those of an explicit method under the
+/// guard against amplified oscillations.
 class ChosenSteps : public Controller {
  public:
   ChosenSteps(const System& system, State start, const SimulationOptions& options,

@@ -117,7 +117,7 @@ void Controller::stop(Stop why, std::string reason) {
   report_.reason = std::move(reason);
 }
 
-std::string Controller::place(std::size_t node) const {
+std::string Controller::name_of(std::size_t node) const {
   std::size_t rod = 0;
   while (rod + 1 < system_.rods().size() && node >= system_.rods()[rod + 1].first) ++rod;
   return sentence("rod ", rod, " node ", node - system_.rods()[rod].first);

@@ -48,7 +48,7 @@ class Controller {
   bool out_of_work();
   void record(const Aim& aim);
   void stop(Stop why, std::string reason);
-  std::string place(std::size_t node) const;
+  std::string name_of(std::size_t node) const;
 
   const System& system_;
   SimulationOptions options_;

@@ -63,9 +63,9 @@ bool FixedSteps::advance(double h) {
   next_ = state_;
   const Evaluation result = stepper_->advance(next_, h);
   if (!result.ok()) {
-    const bool placed = result.outcome != Evaluation::Outcome::not_converged;
-    stop(Stop::not_evaluable, sentence("at time ", state_.time, placed ? ", " + place(result.node) : "", ": ",
-                                       describe(result.outcome)));
+    const bool at_a_node = result.outcome != Evaluation::Outcome::not_converged;
+    stop(Stop::not_evaluable, sentence("at time ", state_.time, at_a_node ? ", " + name_of(result.node) : "",
+                                       ": ", describe(result.outcome)));
     return false;
   }
   std::swap(state_, next_);
@@ -77,7 +77,8 @@ bool FixedSteps::step_towards(double target) {
   if (ended_ || out_of_work()) return false;
   const Aim at = aim(target);
   if (!(at.time > state_.time)) {
-    stop(Stop::step_underflow, sentence("at time ", state_.time, " a step of ", at.h, " moves no clock"));
+    stop(Stop::step_underflow,
+         sentence("at time ", state_.time, " a step of ", at.h, " does not advance the time"));
     return false;
   }
   const double h = at.seen(state_.time);
