@@ -158,7 +158,10 @@ class QueryMaker {
   MadeQuery<Degree> degenerate() {
     Paths paths = paths_of([&] { return whole(4); });
     paths[3] = paths[2];
-    if (random_.integer(3) == 0) paths[1] = paths[random_.integer(2)];
+    if (random_.integer(3) == 0)
+      paths[1] = paths[random_.integer(2)];
+    else
+      paths[0][Degree] = paths[2][Degree];
     return {features_, paths, "degenerate"};
   }
 
