@@ -11,8 +11,14 @@ namespace {
 using test::bent;
 using test::BoundMesh;
 using test::Random;
+using test::with_control_point;
 using Node = PlacedCells::Node;
 using Pose = std::vector<CurvePair>;
+
+#ifndef TENDRIL_MANY_POSES
+#define TENDRIL_MANY_POSES 60
+#endif
+constexpr int kPoses = TENDRIL_MANY_POSES;
 
 constexpr HierarchyOptions kNeverRefit{256, 2.0};
 
@@ -154,34 +160,34 @@ BoundMesh bound_in_a_bow() {
   return {{test::pair_through(p, Vec3::UnitZ(), 0.1)}, test::tube(40, 24, 0.2), options};
 }
 
-void hold(const BoundMesh& mesh, int poses, std::uint64_t seed) {
+void hold(const BoundMesh& mesh, std::uint64_t seed) {
   PlacedCells cells(mesh.rest, mesh.points, mesh.triangles, kNeverRefit);
   Containment sum;
   Random random(seed);
-  for (int i = 0; i < poses; ++i) add(mesh, cells, random_pose(mesh.rest, random), sum);
+  for (int i = 0; i < kPoses; ++i) add(mesh, cells, random_pose(mesh.rest, random), sum);
   for (const Pose& pose : degenerate_poses(mesh.rest, random)) add(mesh, cells, pose, sum);
   EXPECT_EQ(sum.missed, 0);
   EXPECT_EQ(sum.other, 0);
-  EXPECT_GT(sum.culls, 25000L * poses);
+  EXPECT_GT(sum.culls, 27000L * kPoses);
 }
 
 TEST(AxialHierarchy, BoxesHoldATube) {
-  hold(bound_tube(), 60, 1);
+  hold(bound_tube(), 1);
 }
 TEST(AxialHierarchy, BoxesHoldALeaf) {
-  hold(bound_leaf(), 60, 2);
+  hold(bound_leaf(), 2);
 }
 
 TEST(AxialHierarchy, BoxesHoldPointsOfSeveralCurvePairs) {
   const BoundMesh mesh = bound_to_three();
   ASSERT_GT(mesh.binding.report().places, mesh.binding.size() + 100);
-  hold(mesh, 60, 3);
+  hold(mesh, 3);
 }
 
 TEST(AxialHierarchy, BoxesHoldPointsWithPlacesFarApart) {
   const BoundMesh mesh = bound_in_a_bow();
   ASSERT_GT(mesh.binding.report().places, mesh.binding.size() + 100);
-  hold(mesh, 60, 4);
+  hold(mesh, 4);
 }
 
 /// Slab boxes are longer than exact ones by little, and every slab of a sound pose has a frame.
@@ -277,20 +283,13 @@ TEST(AxialHierarchy, TouchesNothingFarAndLittleNear) {
   const auto ignore = [](const PlacedTriangle&) {};
   hierarchy.near({0, 0, 9}, 1.0, ignore);
   EXPECT_EQ(hierarchy.work().boxes, 1U);
+  EXPECT_EQ(hierarchy.work().slabs, 5U);
   EXPECT_EQ(hierarchy.work().touched, 0U);
   hierarchy.near({0, 0, 0}, 0.02, ignore);
   EXPECT_GT(hierarchy.work().touched, 0U);
   EXPECT_LT(hierarchy.work().touched, hierarchy.work().cells / 10);
   EXPECT_EQ(hierarchy.work().placed, hierarchy.work().touched);
   EXPECT_FALSE(hierarchy.work().refitted);
-}
-
-CurvePair with_control_point(const CurvePair& pair, std::size_t i, const Vec3& move) {
-  std::vector<Vec3> u(pair.primary().control_points().begin(), pair.primary().control_points().end());
-  std::vector<Vec3> v(pair.orientation().control_points().begin(), pair.orientation().control_points().end());
-  u[i] += move;
-  v[i] += move;
-  return CurvePair(pair.knots(), u, v);
 }
 
 /// A control point of a cubic moves four spans: the boxes and points of the others stay.
@@ -302,14 +301,15 @@ TEST(AxialHierarchy, KeepsWhatDidNotMove) {
   const Box all{Vec3::Constant(-9), Vec3::Constant(9)};
   Pose pose = mesh.rest;
   hierarchy.meeting(all, ignore);
-  const std::size_t cells = hierarchy.work().cells, slabs = hierarchy.work().slabs;
+  const std::size_t cells = hierarchy.work().cells;
+  EXPECT_GE(hierarchy.work().slabs, 17U);
   EXPECT_EQ(hierarchy.work().placed, cells);
   for (int i = 0; i < 20; ++i) {
     pose[0] = with_control_point(pose[0], static_cast<std::size_t>(random.integer(20)), random.in_cube(0.01));
     hierarchy.pose(pose);
-    EXPECT_LE(hierarchy.work().slabs, slabs * 4 / 17);
     compare_queries(mesh, hierarchy, pose, random);
     hierarchy.meeting(all, ignore);
+    EXPECT_LE(hierarchy.work().slabs, 4U * (1 + 64 / 17));
     EXPECT_EQ(hierarchy.work().touched, cells);
     EXPECT_LT(hierarchy.work().placed, cells / 2);
     EXPECT_GT(hierarchy.work().placed, 0U);
@@ -327,9 +327,9 @@ TEST(AxialHierarchy, KeepsNothingDegenerateWhenItsCurvePairMoves) {
   AxialHierarchy hierarchy(mesh.rest, mesh.points, mesh.triangles, kNeverRefit);
   Random random(8);
   Pose pose = mesh.rest;
+  // At the origin, where every derivative is exactly 0: the tangent is then that of the whole polygon.
   for (std::size_t i = 3; i < 9; ++i)
-    pose[0] = with_control_point(
-        pose[0], i, pose[0].primary().control_points()[3] - pose[0].primary().control_points()[i]);
+    pose[0] = with_control_point(pose[0], i, -pose[0].primary().control_points()[i]);
   for (int i = 0; i < 6; ++i) {
     pose[0] = with_control_point(pose[0], 19, random.in_cube(0.2));
     hierarchy.pose(pose);

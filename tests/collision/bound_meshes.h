@@ -49,12 +49,12 @@ inline bind::PolygonMesh closed_tube(int rings, int around,
   return mesh;
 }
 
-/// 1 long, 0.4 wide, 0.012 thick.
+/// 1 long, 0.4 wide (z), 0.012 thick (y).
 inline bind::PolygonMesh leaf(int rings, int around) {
   return closed_tube(rings, around, [](double angle, double) {
     const double c = std::cos(angle), s = std::sin(angle);
     const double reach = std::max(std::abs(c), std::abs(s));
-    return Eigen::Vector2d(0.2 * c / reach, 0.006 * s / reach);
+    return Eigen::Vector2d(0.006 * c / reach, 0.2 * s / reach);
   });
 }
 
@@ -97,6 +97,18 @@ inline bind::PolygonMesh subdivided(const bind::PolygonMesh& mesh) {
   return out;
 }
 
+/// The mesh turned and scaled so that its longest side goes along x from 0 to 1, the others about 0.
+inline bind::PolygonMesh along_x(bind::PolygonMesh mesh) {
+  const collision::Box box = collision::box_of(mesh.points);
+  Eigen::Index along = 0;
+  const double length = (box.high - box.low).maxCoeff(&along);
+  for (Vec3& p : mesh.points) {
+    const Vec3 q = (p - 0.5 * (box.low + box.high)) / length;
+    p = Vec3(q[along] + 0.5, q[(along + 1) % 3], q[(along + 2) % 3]);
+  }
+  return mesh;
+}
+
 /// The curve-pair bent in the x-y plane by `bend` over its length, turned by `twist` about itself, the
 /// distances between control points kept.
 inline CurvePair bent(const CurvePair& rest, double bend, double twist) {
@@ -131,6 +143,15 @@ inline CurvePair shaken(const CurvePair& pair, double size, Random& random) {
     d[i] += move + random.in_cube(size);
   }
   return CurvePair(pair.knots(), c, d);
+}
+
+/// The same with a control point of either curve moved.
+inline CurvePair with_control_point(const CurvePair& pair, std::size_t i, const Vec3& move) {
+  std::vector<Vec3> u(pair.primary().control_points().begin(), pair.primary().control_points().end());
+  std::vector<Vec3> v(pair.orientation().control_points().begin(), pair.orientation().control_points().end());
+  u[i] += move;
+  v[i] += move;
+  return CurvePair(pair.knots(), u, v);
 }
 
 /// A mesh with its binding, and what a hierarchy is made from.

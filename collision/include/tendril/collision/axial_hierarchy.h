@@ -31,7 +31,7 @@ class TENDRIL_COLLISION_API AxialHierarchy {
   void pose(std::span<const CurvePair> posed) { cells_.pose(posed); }
   /// Deforms and boxes everything, as queries do by themselves once they have touched enough of it.
   void refit() { cells_.refit(); }
-  const HierarchyWork& work() const { return cells_.work(); }   ///< since the last pose
+  HierarchyWork work() const { return cells_.work(); }          ///< since the last pose
   std::size_t size() const { return cells_.triangle_count(); }  ///< number of triangles
 
   /// Calls visit(triangle) for the triangles of which enter(box) holds, and held for every box above. enter

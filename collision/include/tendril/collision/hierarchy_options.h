@@ -20,8 +20,8 @@ struct HierarchyOptions {
 
 /// What the last pose and the queries since have cost.
 struct HierarchyWork {
-  std::size_t slabs = 0;     ///< made anew; the others were kept
-  std::size_t unframed = 0;  ///< slabs where only the length of the frame's axes is known
+  std::size_t slabs = 0;     ///< bounded anew, spans among them; the others were kept or not asked for
+  std::size_t unframed = 0;  ///< of these, only the length of the frame's axes is known
   std::size_t boxes = 0;     ///< made from slabs
   std::size_t cells = 0;     ///< in all
   std::size_t touched = 0;   ///< cells that queries entered

@@ -56,7 +56,7 @@ class TENDRIL_COLLISION_API PlacedCells {
 
   void pose(std::span<const CurvePair> posed);                  ///< as AxialHierarchy::pose
   void refit();                                                 ///< as AxialHierarchy::refit
-  const HierarchyWork& work() const;                            ///< since the last pose
+  HierarchyWork work() const;                                   ///< since the last pose
   std::size_t triangle_count() const { return order_.size(); }  ///< in all
 
   /// The node of all triangles.

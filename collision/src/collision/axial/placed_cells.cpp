@@ -83,11 +83,10 @@ struct PlacedCells::Lazy {
     for (const Bounded& p : patches_at(meta)) frame = std::max(frame, slabs.last_change(p.first, p.last));
     return frame;
   }
-  Box box(std::size_t meta) const {
+  Box box(std::size_t meta) {
     const auto all = patches_at(meta);
-    Box out = bound(slabs[all[0].first], all[0].range);
-    for (const Bounded& p : all)
-      for (std::size_t slab = p.first; slab <= p.last; ++slab) out = join(out, bound(slabs[slab], p.range));
+    Box out = slabs.box(all[0].first, all[0].last, all[0].range);
+    for (const Bounded& p : all.subspan(1)) out = join(out, slabs.box(p.first, p.last, p.range));
     return out;
   }
 
@@ -132,11 +131,14 @@ void PlacedCells::pose(std::span<const CurvePair> posed) {
   HierarchyWork& work = lazy_->work;
   const auto touched = static_cast<double>(work.touched), cells = static_cast<double>(work.cells);
   lazy_->refit_due = work.refitted && touched > 0.5 * lazy_->options.refit_share * cells;
-  work = {lazy_->slabs.made(), lazy_->slabs.unframed(), 0, work.cells, 0, 0, false};
+  work = {0, 0, 0, work.cells, 0, 0, false};
 }
 
-const HierarchyWork& PlacedCells::work() const {
-  return lazy_->work;
+HierarchyWork PlacedCells::work() const {
+  HierarchyWork out = lazy_->work;
+  out.slabs = lazy_->slabs.made();
+  out.unframed = lazy_->slabs.unframed();
+  return out;
 }
 
 const Box& PlacedCells::make(const Node& n) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRounding = 0x1p-36;  // what BoundPoints promises
 constexpr double kOwn = 0x1p-40;       // rounding before the first interval, relative to the span's sizes
-constexpr double kLeast = 1.0 / 64.0;
+constexpr double kLeastSpeed = 1.0 / 64.0, kLeastOffset = 1.0 / 16.0;  // of the span's sizes
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Controls = std::array<Vec3, kMostControls>;
@@ -120,7 +120,7 @@ void bound_frame(const SpanControls& span, const SlabWeights& weights, const Con
   const Components d = components(axes, e, count - 1), m = components(axes, n, count);
   const double step = least(d.z, count - 1), across = least(m.y, count);
   const double speed = static_cast<double>(count - 1) * step / weights.width;
-  if (!(speed >= kLeast * span.reach) || !(across >= kLeast * span.offset)) return;
+  if (!(speed >= kLeastSpeed * span.reach) || !(across >= kLeastOffset * span.offset)) return;
   const Interval alpha = ratio(d.x, d.z, count - 1), beta = ratio(d.y, d.z, count - 1);
   std::array<Direction, 3> axis;
   if (!frame_of(alpha, beta, ratio(m.x, m.y, count), ratio(m.z, m.y, count), axis)) return;

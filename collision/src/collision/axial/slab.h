@@ -19,6 +19,11 @@ struct SlabWeights {
 
 /// The control points of a span, and sizes that rounding errors are relative to. All of them finite.
 struct SpanControls {
+  SpanControls() {
+    c.fill(Vec3::Zero());
+    n.fill(Vec3::Zero());
+  }
+
   std::size_t count = 0;                           ///< degree + 1
   Vec3 base = Vec3::Zero();                        ///< what c is relative to
   std::array<Vec3, kMostControls> c, n;            ///< of c - base, and of c_D - c
@@ -47,7 +52,8 @@ struct Slab {
 /// in interval arithmetic. What rounding does before the ratios (control points, components) is a change of
 /// c' by at most 2^-40 of the reach and of n by 2^-40 of the offset; with that of BoundPoints it turns the
 /// frame by no more than `turn` below, which is added to each component. Slabs that bend more than half a
-/// right angle, where c' or the part of n across it is below 1/64 of the span's, are not framed.
+/// right angle, where |dc/ds| is below 1/64 of the reach or the part of n across it below 1/16 of the offset,
+/// are not framed.
 Slab bound_slab(const SpanControls& span, const SlabWeights& weights);
 
 /// Ranges of (u, v, w) in the same form; w's holds 0.

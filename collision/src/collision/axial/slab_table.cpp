@@ -3,6 +3,7 @@
 #include <tendril/base/error.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace tendril::collision {
@@ -72,6 +73,7 @@ SlabTable::SlabTable(std::span<const CurvePair> rest, std::size_t wanted) {
   const std::size_t per_span = std::max<std::size_t>(1, wanted / spans_of(rest));
   for (const CurvePair& pair : rest) add_pair(pair, per_span);
   slabs_.resize(weights_.size());
+  made_at_.assign(weights_.size(), 0);
 }
 
 void SlabTable::add_pair(const CurvePair& rest, std::size_t per_span) {
@@ -84,7 +86,8 @@ void SlabTable::add_pair(const CurvePair& rest, std::size_t per_span) {
     pair.span_at[index] = static_cast<std::uint32_t>(spans_.size());
     spans_.push_back({static_cast<std::uint32_t>(pairs_.size()), static_cast<std::uint32_t>(weights_.size()),
                       static_cast<std::uint32_t>(per_span), index - static_cast<std::size_t>(knots.degree()),
-                      static_cast<std::size_t>(knots.degree()) + 1, begin, length});
+                      static_cast<std::size_t>(knots.degree()) + 1, begin, length,
+                      weights_of(knots, at, -kOver, 1.0 + kOver)});
     for (std::size_t k = 0; k < per_span; ++k) {
       const double part = 1.0 / static_cast<double>(per_span), from = static_cast<double>(k) * part;
       weights_.push_back(weights_of(knots, at, from - kOver, from + part + kOver));
@@ -100,16 +103,43 @@ std::uint32_t SlabTable::slab_of(std::uint32_t pair, double t) const {
   return span.first_slab + static_cast<std::uint32_t>(std::clamp(at, 0.0, span.slabs - 1.0));
 }
 
-void SlabTable::make(Span& span, const CurvePair& posed) {
-  const SpanControls controls =
-      controls_of(posed.primary().control_points().data() + span.first_control,
-                  posed.orientation().control_points().data() + span.first_control, span.count);
-  span.framed = true;
-  for (std::size_t i = span.first_slab; i < span.first_slab + span.slabs; ++i) {
-    slabs_[i] = bound_slab(controls, weights_[i]);
-    span.framed = span.framed && slabs_[i].framed;
+Slab SlabTable::make(const Span& span, const SlabWeights& weights) {
+  ++made_;
+  const Slab slab = bound_slab(span.controls, weights);
+  if (!slab.framed) ++unframed_;
+  return slab;
+}
+
+const Slab& SlabTable::slab(std::size_t index) {
+  const Span& span = spans_[span_of_[index]];
+  if (made_at_[index] < span.changed) {
+    slabs_[index] = make(span, weights_[index]);
+    made_at_[index] = span.changed;
   }
-  made_ += span.slabs;
+  return slabs_[index];
+}
+
+Box SlabTable::box(std::uint32_t first, std::uint32_t last, const AxialRange& range) {
+  Box out{Vec3::Constant(std::numeric_limits<double>::infinity()),
+          Vec3::Constant(-std::numeric_limits<double>::infinity())};
+  for (std::uint32_t i = first; i <= last;) {
+    const Span& span = spans_[span_of_[i]];
+    const bool whole = i == span.first_slab && last + 1 >= i + span.slabs;
+    out = join(out, bound(whole ? span.whole : slab(i), range));
+    i += whole ? span.slabs : 1;
+  }
+  return out;
+}
+
+void SlabTable::change(Span& span, const CurvePair& posed, std::uint32_t frame) {
+  span.controls = controls_of(posed.primary().control_points().data() + span.first_control,
+                              posed.orientation().control_points().data() + span.first_control, span.count);
+  span.whole = make(span, span.weights);
+  span.changed = frame;
+  span.framed = true;
+  if (span.whole.framed) return;
+  for (std::size_t i = span.first_slab; i < span.first_slab + span.slabs; ++i)
+    span.framed = slab(i).framed && span.framed;
 }
 
 void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
@@ -118,8 +148,7 @@ void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
   for (std::size_t k = 0; k < posed.size(); ++k)
     if (posed[k].knots() != pairs_[k].knots)
       throw InvalidInput("posed curve-pair", "other knots", "those of the rest");
-  made_ = 0;
-  oldest_ = frame;
+  made_ = unframed_ = 0;
   for (Span& span : spans_) {
     const PairSpans& pair = pairs_[span.pair];
     const Points u = posed[span.pair].primary().control_points();
@@ -130,11 +159,7 @@ void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
     };
     // Where a frame is near degenerate, all control points of its curve-pair may have a say.
     const bool kept = span.framed ? unmoved(span.first_control, span.count) : unmoved(0, u.size());
-    if (!kept) {
-      make(span, posed[span.pair]);
-      span.changed = frame;
-    }
-    oldest_ = std::min(oldest_, span.changed);
+    if (!kept) change(span, posed[span.pair], frame);
   }
   for (std::size_t k = 0; k < posed.size(); ++k) {
     const Points u = posed[k].primary().control_points(), v = posed[k].orientation().control_points();
@@ -147,11 +172,6 @@ std::uint32_t SlabTable::last_change(std::uint32_t first, std::uint32_t last) co
   std::uint32_t frame = 0;
   for (std::size_t k = span_of_[first]; k <= span_of_[last]; ++k) frame = std::max(frame, spans_[k].changed);
   return frame;
-}
-
-std::size_t SlabTable::unframed() const {
-  return static_cast<std::size_t>(
-      std::count_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.framed; }));
 }
 
 }  // namespace tendril::collision

@@ -17,22 +17,21 @@ class SlabTable {
   SlabTable(std::span<const CurvePair> rest, std::size_t wanted);
 
   std::size_t size() const { return slabs_.size(); }
-  std::size_t pair_count() const { return pairs_.size(); }
-  const Slab& operator[](std::size_t slab) const { return slabs_[slab]; }
   std::uint32_t slab_of(std::uint32_t pair, double t) const;
-  std::uint32_t pair_of(std::size_t slab) const { return spans_[span_of_[slab]].pair; }
 
-  /// Makes the slabs whose control points are no longer the same doubles; O(slabs made + control points).
+  /// About all points with records in the slabs [first, last], of one curve-pair, and in the range.
+  Box box(std::uint32_t first, std::uint32_t last, const AxialRange& range);
+
+  /// Bounds the spans whose control points are no longer the same doubles; O(control points + spans).
   /// InvalidInput unless the curve-pairs are on the knots of the rest.
   /// \param frame  ascending, above 0
   void pose(std::span<const CurvePair> posed, std::uint32_t frame);
 
   /// The last frame in which a point of the slabs [first, last] may have moved.
   std::uint32_t last_change(std::uint32_t first, std::uint32_t last) const;
-  /// The least of these over all slabs.
-  std::uint32_t oldest_change() const { return oldest_; }
+  /// Slabs made since the last pose, spans among them, and how many of them have no frame.
   std::size_t made() const { return made_; }
-  std::size_t unframed() const;
+  std::size_t unframed() const { return unframed_; }
 
  private:
   struct PairSpans {
@@ -45,19 +44,24 @@ class SlabTable {
     std::uint32_t pair, first_slab, slabs;
     std::size_t first_control, count;
     double begin, length;
+    SlabWeights weights{};
+    SpanControls controls{};
+    Slab whole{};
     std::uint32_t changed = 0;
-    bool framed = false;  ///< all slabs are: nothing but these control points matters
+    bool framed = false;  ///< all of it: nothing but these control points matters
   };
   void add_pair(const CurvePair& rest, std::size_t per_span);
-  void make(Span& span, const CurvePair& posed);
+  void change(Span& span, const CurvePair& posed, std::uint32_t frame);
+  Slab make(const Span& span, const SlabWeights& weights);
+  const Slab& slab(std::size_t index);
 
   std::vector<PairSpans> pairs_;
   std::vector<Span> spans_;
   std::vector<SlabWeights> weights_;
   std::vector<Slab> slabs_;
+  std::vector<std::uint32_t> made_at_;  ///< frame of each slab
   std::vector<std::uint32_t> span_of_;
-  std::uint32_t oldest_ = 0;
-  std::size_t made_ = 0;
+  std::size_t made_ = 0, unframed_ = 0;
 };
 
 }  // namespace tendril::collision
