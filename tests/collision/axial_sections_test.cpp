@@ -105,6 +105,7 @@ TEST(AxialSections, HoldTheirShapesAndNoMore) {
               holds(octagon, 0.55, 0.5, 0.49));
   EXPECT_FALSE(holds(circle, 0.55, 0.8, 0.8) || holds(box, 0.55, 0.9, -0.1) ||
                holds(octagon, 0.55, 0.6, 0.6));
+  EXPECT_FALSE(holds(octagon, 0.55, -0.6, 0.6));
   EXPECT_FALSE(holds(circle, 0.65, 0, 0) || holds(box, 0.65, 0, 0.5) || holds(octagon, 0.65, 0, 0.5));
   EXPECT_FALSE(holds(circle, 0.0, 0, 0) || holds(box, 1.0, 0, 0.5));
 }
