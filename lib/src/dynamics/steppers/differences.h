@@ -9,13 +9,13 @@
 namespace tendril {
 
 /// Derivatives of the external forces that do not give their own, by differences: groups of columns, a kind
-/// of coordinate (an axis of p, an axis of v, the spin w) at the nodes of one colour, are moved together.
-/// Nodes of one colour share no row of the pattern.
+/// of coordinate (an axis of p, an axis of v, the angle theta, the spin w) at the nodes of one colour, are
+/// moved together. Nodes of one colour share no row of the pattern.
 template <int B>
 class Differences {
  public:
   Differences(const Model& model, const BlockPattern& pattern)
-      : model_(model), kinds_(model.twist_nodes > 0 ? 7 : 6) {
+      : model_(model), kinds_(model.twist_nodes > 0 ? 8 : 6) {
     neighbours_.resize(pattern.size());
     for (std::size_t k = 0; k < pattern.size(); ++k) {
       neighbours_[pattern.node(k)].push_back(pattern.node(k));
@@ -34,10 +34,12 @@ class Differences {
     if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
     const Eigen::Index n3 = model_.v_begin();
     const double speed = std::max(state.y.segment(n3, n3).cwiseAbs().maxCoeff(), length_);
-    const double steps[3] = {1e-7 * length_, 1e-7 * speed, 1e-7 * speed / length_};
+    const auto step_of = [&](std::size_t kind) {
+      return 1e-7 * (kind < 3 ? length_ : kind < 6 ? speed : kind == kAngle ? 1.0 : speed / length_);
+    };
     for (const auto& nodes : coloured_)
       for (std::size_t kind = 0; kind < kinds_; ++kind) {
-        const double step = steps[kind < 3 ? 0 : kind < 6 ? 1 : 2];
+        const double step = step_of(kind);
         moved_ = state.y;
         bool any = false;
         for (const std::size_t i : nodes) {
@@ -50,7 +52,7 @@ class Differences {
         if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
         dy_ = (dy_ - base_) / step;
         for (const std::size_t i : nodes)
-          if (place_of(i, kind) >= 0) take(i, kind, kind < 3 ? by_x : by_u);
+          if (place_of(i, kind) >= 0) take(i, kind, kind < 3 || kind == kAngle ? by_x : by_u);
       }
     return evaluations;
   }
@@ -76,7 +78,8 @@ class Differences {
   Eigen::Index place_of(std::size_t i, std::size_t kind) const {
     const auto axis = static_cast<Eigen::Index>(3 * i + kind % 3);
     if (kind < 6) return model_.holds_position(i) ? -1 : axis + (kind < 3 ? 0 : model_.v_begin());
-    return model_.inverse_inertia[i] > 0.0 ? model_.spin_begin() + model_.twist_index[i] : -1;
+    if (!(model_.inverse_inertia[i] > 0.0)) return -1;
+    return (kind == kAngle ? model_.theta_begin() : model_.spin_begin()) + model_.twist_index[i];
   }
 
   void take(std::size_t i, std::size_t kind, BlockMatrix<B>& to) {
@@ -91,6 +94,7 @@ class Differences {
     }
   }
 
+  static constexpr std::size_t kAngle = 6;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   const Model& model_;
