@@ -18,6 +18,7 @@ class Magnet : public Force {
     const double r = d.norm();
     loads.force[node_] += strength_ / (r * r * r) * d;
   }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::among({node_}); }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override {
     return -strength_ / (place_ - state.p[node_]).norm();

@@ -36,6 +36,10 @@ class PullAtVertex : public Force {
       loads.torque[i] += on_masses.torque[i];
     }
   }
+  /// A point of an interpolating curve moves with all masses of its rod.
+  Couplings couplings(std::span<const NodeRange>) const override {
+    return Couplings::within(along_m_.size());
+  }
   bool twists() const override { return true; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override {

@@ -76,6 +76,7 @@ struct Comes : Force {
     const double k = state.time < 0.2 || state.time >= 0.4 ? 0.0 : 1e7;
     loads.force[3] -= k * (state.p[3] - Vec3(1, 0, 0));
   }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::within(0); }
   std::vector<double> breaks() const override { return {0.2, 0.4}; }
 };
 

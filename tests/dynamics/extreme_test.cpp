@@ -121,6 +121,7 @@ struct Wall : Force {
     for (std::size_t i = 0; i < state.p.size(); ++i)
       if (state.p[i].z() < -0.05) loads.force[i].z() += jump - 50.0 * (state.p[i].z() + 0.05);
   }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::within(0); }
   double jump;
 };
 Scene on_wall(double young, double jump) {

@@ -51,7 +51,7 @@ struct Stirred {
 /// Largest difference to central differences, relative to the largest entry.
 double error_of(const Force& force, Stirred state) {
   Gathered gathered(9);
-  force.add_derivatives(state.view(), gathered);
+  force.couplings(state.rods).derivatives()(state.view(), gathered);
   double worst = 0.0;
   const auto compare = [&](std::vector<Vec3> Stirred::*field, const Eigen::MatrixXd& exact) {
     for (std::size_t j = 0; j < 9; ++j)
@@ -92,7 +92,7 @@ TEST(WindDerivatives, AreNothingInStillFlowAlongTheEdges) {
   Stirred state(random);
   for (Vec3& v : state.v) v.setZero();
   Gathered gathered(9);
-  Wind(WindOptions{}).add_derivatives(state.view(), gathered);
+  Wind(WindOptions{}).couplings(state.rods).derivatives()(state.view(), gathered);
   EXPECT_EQ(gathered.by_p.norm(), 0.0);
   EXPECT_EQ(gathered.by_v.norm(), 0.0);
 }

@@ -11,6 +11,7 @@ namespace {
 struct Falling : Force {
   explicit Falling(const Vec3& a) : acceleration(a) {}
   void add(const StateView&, const Loads&) const override { throw std::logic_error("add() was called"); }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
   std::optional<Vec3> uniform_acceleration() const override { return acceleration; }
   Vec3 acceleration;
 };

@@ -3,26 +3,13 @@
 #include <tendril/dynamics/rodas.h>
 #include <tendril/dynamics/simulation.h>
 
+#include "support/order.h"
 #include "support/rods.h"
 
 namespace tendril {
 namespace {
 
-Eigen::VectorXd after(const System& system, const State& start, Stepper& stepper, double time, int steps) {
-  State state = start;
-  for (int i = 0; i < steps; ++i)
-    if (!stepper.advance(state, time / steps).ok()) throw std::runtime_error("step failed");
-  return state.y.head(3 * static_cast<Eigen::Index>(system.node_count()));
-}
-
-double order_of(const System& system, const State& start, double time, int coarse) {
-  Rodas rodas(system);
-  const Eigen::VectorXd reference = after(system, start, rodas, time, 16 * coarse);
-  const double first = (after(system, start, rodas, time, coarse) - reference).norm();
-  const double second = (after(system, start, rodas, time, 2 * coarse) - reference).norm();
-  std::printf("RODAS: errors %.2e %.2e, order %.2f\n", first, second, std::log2(first / second));
-  return std::log2(first / second);
-}
+using test::order_of;
 
 /// A clamped rod let go under gravity; anisotropic ones keep their twist.
 System hanging(int edges, double young, bool twist, double viscosity = 0.0) {

@@ -158,6 +158,7 @@ struct Broken : Force {
   void add(const StateView& state, const Loads& loads) const override {
     if (state.time > 0.02) loads.force[0].x() += std::numeric_limits<double>::quiet_NaN();
   }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::within(0); }
 };
 
 TEST(Simulation, KeepsTheLastGoodStateWhenAForceFails) {

@@ -13,7 +13,7 @@ class TENDRIL_CORE_API Gravity final : public Force {
  public:
   explicit Gravity(const Vec3& acceleration);
   void add(const StateView& state, const Loads& loads) const override;
-  bool depends_on_state() const override { return false; }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
   bool depends_on_time() const override { return false; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
@@ -45,8 +45,7 @@ class TENDRIL_CORE_API Wind : public Force {
  public:
   explicit Wind(const WindOptions& options);
   void add(const StateView& state, const Loads& loads) const override;
-  bool has_derivatives() const override { return true; }
-  void add_derivatives(const StateView& state, LoadDerivatives& to) const override;
+  Couplings couplings(std::span<const NodeRange> rods) const override;
   std::vector<double> breaks() const override { return options_.switched.breaks(); }
   /// Air velocity at a point and time.
   Vec3 velocity(const Vec3& x, double t) const;
@@ -54,6 +53,7 @@ class TENDRIL_CORE_API Wind : public Force {
   Mat3 velocity_gradient(const Vec3& x, double t) const;
 
  private:
+  void add_derivatives(const StateView& state, LoadDerivatives& to) const;
   struct Wave {
     double frequency, phase;
   };
@@ -72,9 +72,7 @@ class TENDRIL_CORE_API PointLoad : public Force {
   bool has_energy() const override { return kind_ == Kind::force && signal_.is_constant(); }
   double energy(const StateView& state) const override;
   bool twists() const override { return kind_ == Kind::torque; }
-  bool depends_on_state() const override {
-    return kind_ == Kind::torque;
-  }  // a torque acts through the tangent
+  Couplings couplings(std::span<const NodeRange> rods) const override;
   bool depends_on_time() const override { return !signal_.is_constant(); }
   std::vector<double> breaks() const override { return signal_.breaks(); }
 
@@ -94,8 +92,7 @@ class TENDRIL_CORE_API PullTowards : public Force {
   void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
-  bool has_derivatives() const override { return true; }
-  void add_derivatives(const StateView& state, LoadDerivatives& to) const override;
+  Couplings couplings(std::span<const NodeRange> rods) const override;
 
  private:
   std::size_t rod_, node_;

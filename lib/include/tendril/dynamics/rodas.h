@@ -26,6 +26,7 @@ class TENDRIL_CORE_API Rodas : public EmbeddedStepper {
   Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) override;
   Evaluation advance(State& state, double h) override;
   void restart() override;
+  void go_on() override;
   int error_order() const override { return 3; }
   bool stiff() const override { return true; }
   long evaluations() const override;

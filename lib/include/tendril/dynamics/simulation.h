@@ -38,12 +38,11 @@ struct SimulationOptions {
 enum class Stop {
   finished,
   cancelled,       ///< the progress callback asked for it
-  too_stiff,       ///< the guard's step would need more evaluations than the work limit, or the fixed step is
-                   ///< beyond the method's stability limit
+  too_stiff,       ///< the guard's step exceeds the work limit, or a fixed step the stability limit
   work_limit,      ///< the limit was reached on the way
   step_underflow,  ///< no step large enough to move the clock meets the tolerance
-  not_evaluable,   ///< zero-length edge, fold-back, a number that is not finite or an implicit step without
-                   ///< solution, at every step size (or the fixed one)
+  not_evaluable,   ///< zero-length edge, fold-back, no finite number, a force's refusal or an implicit step
+                   ///< without solution, at every step size (or the fixed one)
   energy_lost,     ///< the energy balance is off by more than the energy limit
 };
 TENDRIL_CORE_API const char* to_string(Stop stop);
@@ -66,7 +65,8 @@ struct Report {
   double largest_frequency = 0.0;  ///< last estimate [rad / time]
   double guard_step = 0.0;         ///< last cap on the step by the guard; infinite when nothing limits it
   Energies first, last;
-  double work = 0.0;       ///< by forces without energy, damping and anchors
+  double work = 0.0;       ///< by forces without energy, damping, anchors, Simulation::change
+  double changed = 0.0;    ///< of it, by Simulation::change: negative where impacts take energy
   double imbalance = 0.0;  ///< (last - first - work) / largest energy seen
 };
 
@@ -80,23 +80,25 @@ class TENDRIL_CORE_API Simulation {
   enum class When { accepted_step, output };
 
   /// \param system  kept by reference
-  /// Throws InvalidInput for options out of range, and for a start whose equations cannot be evaluated.
+  /// InvalidInput: options out of range, a start that cannot be evaluated, forces that couple too much.
   Simulation(const System& system, State start, const SimulationOptions& options = {});
   ~Simulation();
 
   /// \param follower  kept by reference; followers are called in the order they were added
   void add(Follower& follower, When when);
-
   /// Called after every accepted step with the time reached; false cancels.
   void on_progress(std::function<bool(double time)> progress);
 
-  /// Runs on to time `until`, calling followers at each of `outputs` (ascending, within the run; the start
-  /// only when it is among them) and at accepted steps. May be called again to go on.
+  /// Runs on to time `until`, calling followers at accepted steps and at each of `outputs` (ascending, within
+  /// the run; the start only when it is among them). May be called again to go on.
   Report run(double until, std::span<const double> outputs = {});
 
+  /// Changes what y holds between two steps, as an impact does: between runs, or from a follower or the
+  /// progress callback. Steppers begin anew, Force::remember is called, energy gained or lost is work. Throws
+  /// InvalidInput, nothing changed, for another time or size or where the equations cannot be evaluated.
+  void change(const std::function<void(State&)>& how);
   const State& state() const;
-  /// The curve-pairs at the present state, one per rod.
-  std::span<const CurvePair> pairs() const;
+  std::span<const CurvePair> pairs() const;  ///< the curve-pairs at the present state, one per rod
   /// Parameters of the masses on their rod's curve.
   std::span<const double> parameters(std::size_t rod) const;
 

@@ -2,9 +2,12 @@
 
 #include <tendril/base/types.h>
 
+#include <memory>
 #include <vector>
 
 namespace tendril {
+
+struct ForceMemory;
 
 /// The state of all rods: the integrated numbers y, and the frames they are measured against.
 ///
@@ -21,6 +24,8 @@ struct State {
   std::vector<Vec3> tangent;   ///< reference tangents, unit; renewed after every accepted step
   std::vector<Vec3> director;  ///< reference directors m, unit and across the tangents; renewed with them
   std::vector<double> twist;   ///< unwrapped twist of each edge at the reference [rad]
+  /// What the scene's forces remember (System::remember); empty or null where nothing.
+  std::vector<std::shared_ptr<const ForceMemory>> memory = {};
 };
 
 /// Whether the equations could be evaluated, and if not, why and where.
@@ -32,7 +37,8 @@ struct Evaluation {
     fold_back,       ///< two opposite edges at a node: it has no tangent
     turned_too_far,  ///< a tangent opposite to its reference: no smallest rotation between the two
     not_finite,      ///< a number that overflowed, or was not finite to begin with
-    not_converged    ///< an implicit step's equations
+    not_converged,   ///< an implicit step's equations
+    refused          ///< a force refused the state: Loads::refuse
   };
   Outcome outcome = Outcome::ok;                      ///< why
   std::size_t node = 0;                               ///< where: flat index

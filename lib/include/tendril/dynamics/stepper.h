@@ -32,6 +32,9 @@ class TENDRIL_CORE_API EmbeddedStepper : public Stepper {
   /// failure y and error are not to be used.
   virtual Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd& error) = 0;
 
+  /// The last step was taken: the next one begins at its end, with the frames renewed.
+  virtual void go_on() { restart(); }
+
   virtual int error_order() const = 0;          ///< the error goes with h to this order plus 1
   virtual bool stiff() const { return false; }  ///< damps what it does not resolve, at any step
 };

@@ -58,6 +58,11 @@ class TENDRIL_CORE_API System {
   /// their pose.
   Evaluation rebase(State& state, Workspace& work) const;
 
+  /// Asks every force what to remember at a state (Force::remember), and counts as work what that changes in
+  /// their energy. A Simulation does so at its start and after each accepted step; who drives a stepper does.
+  /// True when something was remembered anew: then steppers restart.
+  bool remember(State& state, Workspace& work) const;
+
   /// Node frames of a state (l, m, t), n of them.
   std::vector<Frame> frames(const State& state, Workspace& work) const;
 

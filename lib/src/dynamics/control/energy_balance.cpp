@@ -18,6 +18,16 @@ void EnergyBalance::take_over(const EnergyBalance& before) {
   scale_at_least(before.scale_);
 }
 
+double EnergyBalance::change(const State& before, const State& after) {
+  const auto kept = [&](const State& state) {
+    return system_.energies(state, workspace_).total() - state.y[state.y.size() - 1];
+  };
+  const double put_in = kept(after) - kept(before);
+  work_before_ += put_in;
+  look(after);
+  return put_in;
+}
+
 void EnergyBalance::look(const State& state) {
   last_ = system_.energies(state, workspace_);
   const double done = work(state);

@@ -21,6 +21,10 @@ class EnergyBalance {
   /// Looks at a state, for one evaluation of the forces.
   void look(const State& state);
 
+  /// What a change of the state between two steps puts in counts as work from here on; returns it. For three
+  /// evaluations of the forces.
+  double change(const State& before, const State& after);
+
   const Energies& first() const { return first_; }
   const Energies& last() const { return last_; }  ///< where it looked
   double work(const State& state) const { return state.y[state.y.size() - 1] + work_before_; }

@@ -27,7 +27,7 @@ ChosenSteps::ChosenSteps(const System& system, State start, const SimulationOpti
 void ChosenSteps::begin(double until) {
   Controller::begin(until);
   guard_.since().end_at_once();
-  stepper_->restart();
+  stepper_->go_on();
   const double run = until - state_.time;
   if (run > 0.0) control_.begin(options_.first_step.value_or(run / 100));
 }
@@ -48,6 +48,11 @@ void ChosenSteps::measure_guard() {
   guard_.measure(state_, until_ - start_, workspace());
   report_.largest_frequency = guard_.last_frequency();
   report_.guard_step = guard_.step();
+}
+
+void ChosenSteps::begin_anew() {
+  restart_stepper();
+  guard_.since().end_at_once();
 }
 
 double ChosenSteps::needed() const {
@@ -121,6 +126,7 @@ bool ChosenSteps::renew(const Aim& aim, Evaluation& last) {
   next_.tangent = state_.tangent;
   next_.director = state_.director;
   next_.twist = state_.twist;
+  next_.memory = state_.memory;
   next_.time = aim.time;
   last = system_.rebase(next_, workspace());
   if (last.ok()) std::swap(state_, next_);
@@ -149,7 +155,7 @@ void ChosenSteps::stop_without_step(const Evaluation& why) {
 }
 
 void ChosenSteps::accept(const Aim& aim, double error) {
-  stepper_->restart();
+  stepper_->go_on();
   control_.accept(aim.h, error, *stepper_);
   guard_.since().count();
   record(aim);

@@ -20,6 +20,8 @@ class ChosenSteps : public Controller {
  protected:
   /// Looks at what the next steps depend on, and may stop the run.
   virtual void look_ahead();
+  void restart_stepper() override { stepper_->restart(); }
+  void begin_anew() override;
   void measure_guard();
   /// Evaluations that explicit steps would need from here on, and those that are left.
   double needed() const;

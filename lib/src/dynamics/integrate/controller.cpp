@@ -90,7 +90,22 @@ void Controller::record(const Aim& aim) {
   report_.smallest_step = report_.accepted == 1 ? aim.h : std::min(report_.smallest_step, aim.h);
   report_.largest_step = std::max(report_.largest_step, aim.h);
   scale_.see(state_);
+  remember();
   if (report_.accepted % kEnergyInterval == 0) check_energy();
+}
+
+void Controller::remember() {
+  if (system_.remember(state_, workspace())) restart_stepper();
+}
+
+void Controller::change(State state) {
+  state.y[state.y.size() - 1] = state_.y[state_.y.size() - 1];
+  const State before = std::exchange(state_, std::move(state));
+  system_.remember(state_, workspace());
+  other_evaluations_ += 3;
+  report_.changed += energy_.change(before, state_);
+  scale_.see(state_);
+  begin_anew();
 }
 
 void Controller::check_energy() {

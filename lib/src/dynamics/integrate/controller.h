@@ -22,6 +22,9 @@ class Controller {
   /// One accepted step, ending at `target` if it reaches that far. False when the run has to stop.
   virtual bool step_towards(double target) = 0;
   void cancel();
+  /// Another state takes the place of this one between two steps.
+  /// \param state  at the same time, rebased
+  void change(State state);
   void refuse_release();
 
   /// What goes on where the scene is laid out anew.
@@ -47,6 +50,9 @@ class Controller {
   long evaluations() const { return other_evaluations_ + stepper().evaluations(); }
   bool out_of_work();
   void record(const Aim& aim);
+  /// What the stepper kept is of no use any more; nor, after begin_anew, what is known of the motion.
+  virtual void restart_stepper() = 0;
+  virtual void begin_anew() { restart_stepper(); }
   void stop(Stop why, std::string reason);
   std::string name_of(std::size_t node) const;
 
@@ -68,6 +74,7 @@ class Controller {
   virtual bool may_lose_energy() const { return false; }
   double measure_scales();
   void check_energy();
+  void remember();
 
   EnergyBalance energy_;
 };

@@ -16,6 +16,7 @@ class FixedSteps : public Controller {
 
  private:
   const Stepper& stepper() const override { return *stepper_; }
+  void restart_stepper() override { stepper_->restart(); }
   void check_stability();
   Aim aim(double target) const;
   bool advance(double h);

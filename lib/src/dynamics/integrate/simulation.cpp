@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "controller.h"
+#include "dynamics/coupling/elimination.h"
 #include "dynamics/scene/words.h"
 
 namespace tendril {
@@ -43,21 +44,27 @@ void check(const SimulationOptions& options) {
     throw InvalidInput("degree", std::to_string(options.degree), "1 to " + std::to_string(kMaxDegree));
 }
 
-/// A run begins where the equations can be evaluated: there are frames then, and curves through the masses.
-void check_start(const System& system, const State& start) {
-  const State rest = system.rest_state();
-  if (start.y.size() != rest.y.size() || start.tangent.size() != rest.tangent.size() ||
-      start.director.size() != rest.director.size() || start.twist.size() != rest.twist.size())
-    throw InvalidInput("start", "a state of other sizes", "one made by System::rest_state");
+/// A run begins and goes on where the equations can be evaluated: there are frames then, and curves through
+/// the masses.
+void check_state(const char* name, const System& system, const State& state, System::Workspace& work) {
+  const auto nodes = static_cast<std::size_t>(system.node_count());
+  const auto size = static_cast<Eigen::Index>(6 * nodes + 2 * system.twist_count() + 1);
+  if (state.y.size() != size || state.tangent.size() != nodes || state.director.size() != nodes ||
+      state.twist.size() != nodes)
+    throw InvalidInput(name, "a state of other sizes", "one made by System::rest_state");
   Eigen::VectorXd rate;
-  const auto work = system.make_workspace();
-  const Evaluation at = system.derivative(start, start.time, start.y, rate, *work);
-  if (at.ok() && start.y.allFinite()) return;
+  const Evaluation at = system.derivative(state, state.time, state.y, rate, work);
+  if (at.ok() && state.y.allFinite()) return;
   std::size_t rod = 0;
   while (rod + 1 < system.rods().size() && at.node >= system.rods()[rod + 1].first) ++rod;
-  throw InvalidInput(sentence("start: rod ", rod, " node ", at.node - system.rods()[rod].first),
+  throw InvalidInput(sentence(name, ": rod ", rod, " node ", at.node - system.rods()[rod].first),
                      describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
                      "a state at which the equations can be evaluated");
+}
+
+/// A run that may turn to implicit steps is refused now rather than when it does.
+void check_couplings(const System& system, const SimulationOptions& options) {
+  if (options.method == Method::automatic && !options.own_stepper) pattern_of_equations(model_of(system));
 }
 
 }  // namespace
@@ -89,6 +96,7 @@ struct Simulation::Implementation {
     std::sort(releases.begin(), releases.end());
     const bool released = !releases.empty() && releases.front() <= start.time;
     if (released) system = lay_out(start.time);
+    system->remember(start, *system->make_workspace());
     controller = make_controller(*system, std::move(start), o);
     const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r)
@@ -140,6 +148,7 @@ struct Simulation::Implementation {
   /// One accepted step; what lets go at its end is freed. False when the run has to stop.
   bool step_towards(double target, double until) {
     const double next = next_release();
+    fitted = false;
     if (!controller->step_towards(std::min(target, next))) return false;
     if (controller->state().time < next) return true;
     if (release(until)) return true;
@@ -148,18 +157,32 @@ struct Simulation::Implementation {
   }
 
   void fit() {
+    if (fitted) return;
     const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
     for (std::size_t r = 0; r < fits.size(); ++r) pairs[r].set_control_points(primary(r), orientation(q, r));
+    fitted = true;
   }
 
   void tell(When when) {
-    bool fitted = false;
     for (const auto& [follower, its_when] : followers) {
       if (its_when != when) continue;
-      if (!fitted) fit();
-      fitted = true;
+      fit();
       follower->follow(controller->state().time, pairs);
     }
+  }
+
+  void change(const std::function<void(State&)>& how) {
+    State state = controller->state();
+    how(state);
+    if (state.time != controller->state().time)
+      throw InvalidInput("change: time", std::to_string(state.time),
+                         "that of the state, " + std::to_string(controller->state().time));
+    check_state("change", *system, state, controller->workspace());
+    if (!system->rebase(state, controller->workspace()).ok())
+      throw InvalidInput("change", "a node without a frame", "a state with frames");
+    controller->change(std::move(state));
+    fitted = false;
+    fit();
   }
 
   std::vector<std::unique_ptr<const System>> laid_out;  ///< the scene after what has let go
@@ -168,13 +191,15 @@ struct Simulation::Implementation {
   std::vector<double> releases;  ///< ascending
   std::vector<Interpolator> fits;
   std::vector<CurvePair> pairs;
+  bool fitted = true;  ///< the pairs are those of the present state
   std::vector<std::pair<Follower*, When>> followers;
   std::function<bool(double)> progress;
 };
 
 Simulation::Simulation(const System& system, State start, const SimulationOptions& options) {
   check(options);
-  check_start(system, start);
+  check_couplings(system, options);
+  check_state("start", system, start, *system.make_workspace());
   self_ = std::make_unique<Implementation>(system, std::move(start), options);
 }
 Simulation::~Simulation() = default;
@@ -213,6 +238,10 @@ Report Simulation::run(double until, std::span<const double> outputs) {
   }
   self_->fit();
   return self_->controller->report();
+}
+
+void Simulation::change(const std::function<void(State&)>& how) {
+  self_->change(how);
 }
 
 const State& Simulation::state() const {

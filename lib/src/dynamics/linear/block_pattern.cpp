@@ -1,12 +1,12 @@
 #include "block_pattern.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace tendril {
 
 BlockPattern::BlockPattern(std::vector<std::size_t> order,
-                           const std::vector<std::pair<std::size_t, std::size_t>>& couplings)
+                           const std::vector<std::pair<std::size_t, std::size_t>>& couplings,
+                           std::size_t most)
     : order_(std::move(order)), pivot_(order_.size()) {
   for (std::size_t k = 0; k < size(); ++k) pivot_[order_[k]] = k;
   std::vector<std::vector<std::size_t>> neighbours(size());
@@ -14,22 +14,29 @@ BlockPattern::BlockPattern(std::vector<std::size_t> order,
     const auto [low, high] = std::minmax(pivot_[a], pivot_[b]);
     if (low != high) neighbours[low].push_back(high);
   }
-  eliminate(neighbours);
+  complete_ = eliminate(neighbours, most);
+  if (complete_) index();
 }
 
-void BlockPattern::eliminate(std::vector<std::vector<std::size_t>>& neighbours) {
+bool BlockPattern::eliminate(std::vector<std::vector<std::size_t>>& neighbours, std::size_t most) {
+  std::size_t products = 0;
   for (std::size_t k = 0; k < size(); ++k) {
     auto& list = neighbours[k];
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+    products += list.size() * (list.size() + 1) / 2;
+    if (products > most) return false;
     // What a pivot leaves behind among its later neighbours is taken over by the first of them.
     if (list.size() > 1) neighbours[list[0]].insert(neighbours[list[0]].end(), list.begin() + 1, list.end());
-    assert(list.size() <= kMostLater);
     begin_.push_back(later_.size());
     later_.insert(later_.end(), list.begin(), list.end());
     low_.resize(later_.size(), k);
   }
   begin_.push_back(later_.size());
+  return true;
+}
+
+void BlockPattern::index() {
   earlier_.resize(size());
   for (std::size_t e = 0; e < later_.size(); ++e) earlier_[later_[e]].push_back(e);
   for (std::size_t k = 0; k < size(); ++k) {

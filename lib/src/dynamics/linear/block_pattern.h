@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,12 +15,14 @@ namespace tendril {
 /// entries.
 class BlockPattern {
  public:
-  static constexpr std::size_t kMostLater = 32;  ///< later neighbours of a pivot
-
   /// \param order      the nodes, each once, in the order of elimination
   /// \param couplings  pairs of nodes; doubles and pairs of a node with itself are allowed
+  /// \param most       products of blocks that elimination may take (of l later neighbours l (l + 1) / 2);
+  ///                   what needs more is not complete, and has no entries
   BlockPattern(std::vector<std::size_t> order,
-               const std::vector<std::pair<std::size_t, std::size_t>>& couplings);
+               const std::vector<std::pair<std::size_t, std::size_t>>& couplings,
+               std::size_t most = std::numeric_limits<std::size_t>::max());
+  bool complete() const { return complete_; }
 
   std::size_t size() const { return order_.size(); }
   std::size_t entries() const { return later_.size(); }
@@ -33,9 +37,9 @@ class BlockPattern {
 
   /// Entry of the pair of pivots (low, high), low < high; size of entries() where they do not couple.
   std::size_t entry(std::size_t low, std::size_t high) const {
-    for (std::size_t e = begin_[low]; e < begin_[low + 1]; ++e)
-      if (later_[e] == high) return e;
-    return later_.size();
+    const auto end = later_.begin() + static_cast<std::ptrdiff_t>(begin_[low + 1]);
+    const auto at = std::lower_bound(later_.begin() + static_cast<std::ptrdiff_t>(begin_[low]), end, high);
+    return at != end && *at == high ? static_cast<std::size_t>(at - later_.begin()) : later_.size();
   }
 
   /// Entries in which a pivot is the later one.
@@ -45,12 +49,14 @@ class BlockPattern {
   const std::size_t* pairs(std::size_t pivot) const { return pairs_.data() + first_pair_[pivot]; }
 
  private:
-  void eliminate(std::vector<std::vector<std::size_t>>& neighbours);
+  bool eliminate(std::vector<std::vector<std::size_t>>& neighbours, std::size_t most);
+  void index();
 
   std::vector<std::size_t> order_, pivot_;
   std::vector<std::size_t> begin_, later_, low_;
   std::vector<std::vector<std::size_t>> earlier_;
   std::vector<std::size_t> first_pair_, pairs_;
+  bool complete_ = false;
 };
 
 }  // namespace tendril

@@ -35,21 +35,30 @@ namespace {
 
 using Outcome = Evaluation::Outcome;
 
-/// Puts the acting forces into the loads; returns the power of those without an
-/// energy.
-double add_external(const Model& model, double t, const Kinematics& kin, LoadColumns& loads) {
-  const StateView state = view(model, t, kin, loads);
-  const Loads to = no_loads(kin, loads);
-  for (const Model::Acting& acting : model.acting)
-    if (!acting.has_energy) acting.force->add(state, to);
+/// Puts the acting forces into the loads, and into the total the power of those without an energy. Stops
+/// where one refuses the state.
+Evaluation add_external(const Model& model, const State& reference, double t, const Kinematics& kin,
+                        LoadColumns& loads, double& total) {
+  StateView state = view(model, t, kin, loads);
+  Loads to = no_loads(kin, loads);
+  std::size_t refused = Loads::kNone;
+  to.refused = &refused;
+  const auto add = [&](bool has_energy) {
+    for (const Model::Acting& acting : model.acting) {
+      if (acting.has_energy != has_energy) continue;
+      state.memory = memory_of(acting, reference);
+      acting.force->add(state, to);
+    }
+  };
+  add(false);
   double power = 0.0;
   for (std::size_t i = 0; i < model.nodes; ++i) {
     const Vec3 turning = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
     power += loads.load[i].dot(loads.v[i]) + loads.torque[i].dot(turning);
   }
-  for (const Model::Acting& acting : model.acting)
-    if (acting.has_energy) acting.force->add(state, to);
-  return power;
+  add(true);
+  total += power;
+  return refused == Loads::kNone ? Evaluation{} : Evaluation{Outcome::refused, refused};
 }
 
 /// Torques across the tangent act through the tangent; see pull_back.
@@ -192,7 +201,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
     return at;
   double power = -heat;
   if (model.loaded) {
-    power += add_external(model, t, kin, loads);
+    if (const Evaluation at = add_external(model, reference, t, kin, loads, power); !at.ok()) return at;
     add_torques(model, loads, grad);
   }
   const bool by_edges = !model.loaded && model.rides.empty();
@@ -225,10 +234,16 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
   if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, kin); !at.ok())
     return at;
   relax(model, false, kin, grad);
-  const StateView state = view(model, reference.time, kin, loads);
-  const Loads to = no_loads(kin, loads);
-  for (const auto& force : model.scene.forces)
-    if (force->depends_on_state() && !force->has_derivatives()) force->add(state, to);
+  StateView state = view(model, reference.time, kin, loads);
+  Loads to = no_loads(kin, loads);
+  std::size_t refused = Loads::kNone;
+  to.refused = &refused;
+  for (const Model::Acting& acting : model.acting) {
+    if (!acting.by_differences()) continue;
+    state.memory = memory_of(acting, reference);
+    acting.force->add(state, to);
+  }
+  if (refused != Loads::kNone) return {Outcome::refused, refused};
   add_torques(model, loads, grad);
   pull_back(model, kin, grad, loads, pull);
   out.setZero(model.size());

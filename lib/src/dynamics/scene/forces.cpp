@@ -155,6 +155,11 @@ void Wind::add(const StateView& state, const Loads& loads) const {
   }
 }
 
+Couplings Wind::couplings(std::span<const NodeRange>) const {
+  return Couplings::within(1).with(
+      [this](const StateView& state, LoadDerivatives& to) { add_derivatives(state, to); });
+}
+
 void Wind::add_derivatives(const StateView& state, LoadDerivatives& to) const {
   for (const NodeRange& rod : state.rods) {
     for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
@@ -188,6 +193,11 @@ void PointLoad::add(const StateView& state, const Loads& loads) const {
   to[flat(state, rod_, node_)] += signal_(state.time) * direction_;
 }
 
+Couplings PointLoad::couplings(std::span<const NodeRange> rods) const {
+  if (kind_ == Kind::force) return Couplings::none();
+  return Couplings::among({rods[rod_].first + node_});  // a torque acts through the tangent
+}
+
 void PointLoad::check(std::span<const NodeRange> rods) const {
   check_node(rods, rod_, node_);
 }
@@ -207,9 +217,11 @@ void PullTowards::add(const StateView& state, const Loads& loads) const {
   loads.force[i] -= stiffness_ * (state.p[i] - target_);
 }
 
-void PullTowards::add_derivatives(const StateView& state, LoadDerivatives& to) const {
-  const std::size_t i = flat(state, rod_, node_);
-  to.add_by_position(i, i, -stiffness_ * Mat3::Identity());
+Couplings PullTowards::couplings(std::span<const NodeRange> rods) const {
+  const std::size_t i = rods[rod_].first + node_;
+  return Couplings::among({i}).with([i, k = stiffness_](const StateView&, LoadDerivatives& to) {
+    to.add_by_position(i, i, -k * Mat3::Identity());
+  });
 }
 
 void PullTowards::check(std::span<const NodeRange> rods) const {

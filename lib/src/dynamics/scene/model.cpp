@@ -59,6 +59,10 @@ constexpr double kStraight = 1e-9;      // rest angle below which a node counts 
 
 }  // namespace
 
+std::string name_of_force(std::size_t index) {
+  return "forces[" + std::to_string(index) + "]";
+}
+
 EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
   EdgeAngles a{};
   a.x = e.dot(frame.x);
@@ -88,7 +92,7 @@ Model::Model(Scene description, double since) : scene(std::move(description)), f
   add_joints();
   sort_rods();
   for (std::size_t f = 0; f < scene.forces.size(); ++f) {
-    if (!scene.forces[f]) throw InvalidInput("forces[" + std::to_string(f) + "]", "null", "a force");
+    if (!scene.forces[f]) throw InvalidInput(name_of_force(f), "null", "a force");
     scene.forces[f]->check(rods);
   }
   choose_twist();
@@ -293,14 +297,24 @@ void Model::choose_forces() {
     if (inverse_inertia[i] > 0.0) damped_inertia[i] = damping[i] * inertia[i];
     damped = damped || damping[i] > 0.0;
   }
-  for (const auto& force : scene.forces) {
+  for (std::size_t f = 0; f < scene.forces.size(); ++f) {
+    const auto& force = scene.forces[f];
     // What accelerates every free node alike does so whatever merged with it: no loads need to be summed.
     if (const std::optional<Vec3> a = force->uniform_acceleration())
       gravity += *a;
     else
-      acting.push_back({force.get(), force->has_energy()});
+      acting.push_back({force.get(), f, force->has_energy(), couplings_of(f)});
   }
   loaded = !acting.empty();
+}
+
+Couplings Model::couplings_of(std::size_t force) const {
+  Couplings couplings = scene.forces[force]->couplings(rods);
+  for (const auto& [a, b] : couplings.pairs())
+    if (std::max(a, b) >= nodes)
+      throw InvalidInput(name_of_force(force), "couples node " + std::to_string(std::max(a, b)),
+                         "flat indices less than the " + std::to_string(nodes) + " nodes");
+  return couplings;
 }
 
 void Model::lay_out_springs() {

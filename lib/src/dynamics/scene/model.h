@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/dynamics/couplings.h>
+
 #include <vector>
 
 #include "access.h"
@@ -79,7 +81,11 @@ struct System::Model {
   /// The others, in the scene's order.
   struct Acting {
     const Force* force;
+    std::size_t index;  ///< in the scene
     bool has_energy;
+    Couplings couplings;
+
+    bool by_differences() const { return couplings.any() && !couplings.derivatives(); }
   };
   std::vector<Acting> acting;
   bool loaded = false;  ///< there are such
@@ -116,10 +122,19 @@ struct System::Model {
   void sort_rods();
   void choose_twist();
   void choose_forces();
+  Couplings couplings_of(std::size_t force) const;
   void lay_out_springs();
   void lay_out_bending(std::size_t node);
   std::string twist_source(std::size_t rod) const;
 };
+
+/// What a force remembers at a state, for its view.
+inline const ForceMemory* memory_of(const Model::Acting& acting, const State& state) {
+  return acting.index < state.memory.size() ? state.memory[acting.index].get() : nullptr;
+}
+
+/// The name of a force of the scene in what is refused.
+std::string name_of_force(std::size_t index);
 
 /// Angles of a unit edge against a node frame, as the bending springs see them.
 struct EdgeAngles {

@@ -16,6 +16,8 @@ const char* describe(Evaluation::Outcome outcome) {
       return "a number that is not finite";
     case Evaluation::Outcome::not_converged:
       return "the equations of the implicit step were not solved: a shorter step may";
+    case Evaluation::Outcome::refused:
+      return "a force refuses the state";
   }
   return "";
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/coupling/coupled_nodes.h"
+
 namespace tendril {
 namespace {
 
@@ -23,9 +25,15 @@ StaticLoads::StaticLoads(const System& system, const StaticCoordinates& coordina
     width_.insert(width_.end(), rod.width.begin(), rod.width.end());
     width_.push_back(0.0);
   }
+  auto acting = model_of(system).acting.begin();
   for (const auto& force : system.scene().forces) {
-    conservative_ = conservative_ && (force->has_energy() || !force->depends_on_state());
-    depends_on_state_ = depends_on_state_ || force->depends_on_state();
+    if (const std::optional<Vec3> a = force->uniform_acceleration()) {
+      forces_.push_back({nullptr, *a});
+      continue;
+    }
+    conservative_ = conservative_ && (acting->has_energy || !acting->couplings.any());
+    depends_on_state_ = depends_on_state_ || acting->couplings.any();
+    forces_.push_back({&*acting++, Vec3::Zero()});
   }
   const std::size_t n = system.node_count();
   spin_.assign(n, 0.0);
@@ -48,22 +56,42 @@ Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& pote
   if (!any()) return {};
   const std::vector<Frame> frames = system_.frames(state, work);
   if (frames.empty()) return {Evaluation::Outcome::not_finite, 0};
-  const StateView view = look(state, frames);
-  const Loads loads{force_, torque_};
+  StateView view = look(state, frames);
+  std::size_t refused = Loads::kNone;
+  Loads loads{force_, torque_};
+  loads.refused = &refused;
   for (auto* vectors : {&force_, &torque_}) std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
-  for (const auto& force : system_.scene().forces)
-    if (!force->has_energy() && !force->depends_on_state()) force->add(view, loads);
-  for (std::size_t i = 0; i < p_.size(); ++i) potential -= force_[i].dot(p_[i]);
-  for (const auto& force : system_.scene().forces) {
-    if (force->has_energy()) potential += force->energy(view);
-    if (force->has_energy() || force->depends_on_state()) force->add(view, loads);
+  for (const External& one : forces_) {
+    if (!one.dead()) continue;
+    view.memory = memory_of(*one.acting, state);
+    one.acting->force->add(view, loads);
   }
+  for (std::size_t i = 0; i < p_.size(); ++i) potential -= force_[i].dot(p_[i]);
+  for (const External& one : forces_)
+    if (!one.dead()) add_living(one, state, view, loads, potential);
+  if (refused != Loads::kNone) return {Evaluation::Outcome::refused, refused};
   for (std::size_t i = 0; i < p_.size(); ++i)
     sum_ += force_[i].norm() + torque_[i].norm() / coordinates_.length();
   pass_to_parents();
   pull_back(frames, q);
   return q.allFinite() && std::isfinite(potential) ? Evaluation{}
                                                    : Evaluation{Evaluation::Outcome::not_finite, 0};
+}
+
+void StaticLoads::add_living(const External& one, const State& state, StateView& view, const Loads& loads,
+                             double& potential) const {
+  if (one.acting) {
+    view.memory = memory_of(*one.acting, state);
+    if (one.acting->has_energy) potential += one.acting->force->energy(view);
+    one.acting->force->add(view, loads);
+    return;
+  }
+  double energy = 0.0;
+  for (std::size_t i = 0; i < p_.size(); ++i) {
+    energy -= mass_[i] * one.acceleration.dot(p_[i]);
+    loads.force[i] += mass_[i] * one.acceleration;
+  }
+  potential += energy;
 }
 
 void StaticLoads::pass_to_parents() {
@@ -106,7 +134,7 @@ void StaticLoads::pull_back_turn(const NodeRange& rod, std::size_t node, const V
   }
 }
 
-/// Greedy, by the nodes that the springs couple: two nodes of one colour share none of those.
+/// Greedy, by the nodes that springs and loads couple: two nodes of one colour share none of those.
 void StaticLoads::colour(const Eigen::SparseMatrix<double>& pattern) {
   const std::size_t n = system_.node_count();
   near_.assign(n, {});
@@ -114,6 +142,11 @@ void StaticLoads::colour(const Eigen::SparseMatrix<double>& pattern) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(pattern, column); entry; ++entry)
       if (entry.row() < 3 * static_cast<Eigen::Index>(n) && entry.row() % 3 == 0)
         near_[static_cast<std::size_t>(column / 3)].push_back(static_cast<std::size_t>(entry.row() / 3));
+  for (const Model::Acting& acting : model_of(system_).acting)
+    for (const auto& [a, b] : coupled_by_force(model_of(system_), acting.couplings, true))
+      for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
+        if (auto& list = near_[to]; std::find(list.begin(), list.end(), from) == list.end())
+          list.push_back(from);
   std::vector<std::size_t> colour_of(n, n);
   std::vector<std::size_t> seen(n + 1, n);
   for (std::size_t i = 0; i < n; ++i) {

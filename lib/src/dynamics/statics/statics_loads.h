@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "dynamics/scene/model.h"
 #include "statics_coordinates.h"
 
 namespace tendril {
@@ -20,7 +21,7 @@ class StaticLoads {
   /// as dead loads.
   Evaluation add(const State& state, Eigen::VectorXd& q, double& potential, System::Workspace& work);
 
-  /// dq/dx by central differences, coloured: a load is taken to reach no farther than the springs do.
+  /// dq/dx by central differences, coloured by the pairs of nodes that springs and loads couple.
   /// \param pattern  of the elastic Hessian, in the order of System::elastic_gradient
   Evaluation differentiate(const State& state, const Eigen::SparseMatrix<double>& pattern,
                            std::vector<Eigen::Triplet<double>>& out, System::Workspace& work);
@@ -32,7 +33,16 @@ class StaticLoads {
   const std::vector<Vec3>& force() const { return force_; }
 
  private:
+  /// One of the scene's forces: what acts, or null and an acceleration of every mass.
+  struct External {
+    const Model::Acting* acting;
+    Vec3 acceleration;
+    /// Without an energy, and the same in every state.
+    bool dead() const { return acting && !acting->has_energy && !acting->couplings.any(); }
+  };
   StateView look(const State& state, const std::vector<Frame>& frames);
+  void add_living(const External& one, const State& state, StateView& view, const Loads& loads,
+                  double& potential) const;
   void pass_to_parents();
   void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q) const;
   void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent,
@@ -42,6 +52,7 @@ class StaticLoads {
 
   const System& system_;
   const StaticCoordinates& coordinates_;
+  std::vector<External> forces_;  ///< in the scene's order
   bool conservative_ = true, depends_on_state_ = false;
   double sum_ = 0.0;
   std::vector<double> mass_, width_, spin_;

@@ -161,12 +161,17 @@ Evaluation Rodas::advance(State& state, double h) {
   if (const Evaluation ok = step(state, h, y, error); !ok.ok()) return ok;
   state.y = std::move(y);
   state.time += h;
-  restart();
+  go_on();
   return self_->system.rebase(state, *self_->work);
+}
+
+void Rodas::go_on() {
+  self_->known = false;
 }
 
 void Rodas::restart() {
   self_->known = false;
+  self_->end.resize(0);
 }
 
 long Rodas::evaluations() const {

@@ -1,15 +1,19 @@
 #include "stiff_solver.h"
 
+#include <tendril/base/error.h>
+
 #include <algorithm>
 #include <optional>
 
 #include "differences.h"
+#include "dynamics/coupling/elimination.h"
 #include "dynamics/linear/block_route.h"
 #include "dynamics/rhs/elastic.h"
 #include "dynamics/rhs/kinematics.h"
 #include "dynamics/rhs/pull_back.h"
 #include "dynamics/rhs/rates.h"
 #include "dynamics/scene/free_bodies.h"
+#include "dynamics/scene/words.h"
 #include "dynamics/stiffness/spring_stiffness.h"
 #include "dynamics/stiffness/stiffness_elements.h"
 #include "dynamics/stiffness/turning.h"
@@ -18,76 +22,23 @@
 namespace tendril {
 namespace {
 
-/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
-std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
-  const NodeRange& nodes = model.rods[rod];
-  std::vector<std::size_t> order;
-  for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
-    order.push_back(--high);
-    if (low < high && !model.ride_of(rod)) order.push_back(low++);
-  }
-  return order;
-}
-
-bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
-  const Model::Ride* ride = model.ride_of(child);
-  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
-}
-
-/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
-/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
-/// core.
-std::vector<std::size_t> elimination_order(const Model& model) {
-  std::vector<std::size_t> order;
-  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
-    const std::vector<std::size_t> one = inwards(model, *r);
-    std::vector<std::size_t> two;
-    const bool paired = r + 1 != model.order.rend() && !rides_on(model, *r, *(r + 1));
-    if (paired) two = inwards(model, *++r);
-    for (std::size_t k = 0; k < std::max(one.size(), two.size()); ++k) {
-      if (k < one.size()) order.push_back(one[k]);
-      if (k < two.size()) order.push_back(two[k]);
-    }
-  }
-  return order;
-}
-
-/// Nodes that see each other: with twist up to the third neighbour, without (a hinge) up to the second; the
-/// first edge of a child sees its parent's frame.
-std::vector<std::pair<std::size_t, std::size_t>> couplings(const Model& model) {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const NodeRange& rod : model.rods) {
-    const std::size_t reach = model.has_twist(rod.first) ? 3 : 2;
-    for (std::size_t i = rod.first; i < rod.first + rod.count; ++i)
-      for (std::size_t j = i + 1; j <= std::min(i + reach, rod.first + rod.count - 1); ++j)
-        pairs.emplace_back(model.carrier[i], model.carrier[j]);
-    const std::size_t parent = model.carrier[rod.first];
-    if (parent == rod.first) continue;
-    for (std::size_t j = parent - (model.has_before(parent) ? 1 : 0);
-         j <= parent + (model.has_after(parent) ? 1 : 0); ++j)
-      for (std::size_t i = rod.first + 1; i <= std::min(rod.first + 2, rod.first + rod.count - 1); ++i)
-        pairs.emplace_back(model.carrier[j], i);
-  }
-  return pairs;
-}
-
 bool depends_on_state(const Model& model) {
-  for (const auto& force : model.scene.forces)
-    if (force->depends_on_state()) return true;
+  for (const Model::Acting& acting : model.acting)
+    if (acting.couplings.any()) return true;
   return false;
 }
 
 bool needs_differences(const Model& model) {
-  for (const auto& force : model.scene.forces)
-    if (force->depends_on_state() && !force->has_derivatives()) return true;
+  for (const Model::Acting& acting : model.acting)
+    if (acting.by_differences()) return true;
   return false;
 }
 
 bool depends_on_time(const Model& model) {
   for (const Anchor& anchor : model.anchors)
     if (anchor.motion) return true;
-  for (const auto& force : model.scene.forces)
-    if (force->depends_on_time()) return true;
+  for (const Model::Acting& acting : model.acting)
+    if (acting.force->depends_on_time()) return true;
   return false;
 }
 
@@ -104,21 +55,29 @@ struct Connection {
   std::array<Vec3, 3> by;
 };
 
-/// The derivatives that forces give of their own, under the nodes that carry and feel them.
+/// The derivatives that a force gives of its own, under the nodes that carry and feel them.
 template <int B>
 class OwnDerivatives : public LoadDerivatives {
  public:
-  OwnDerivatives(const Model& model, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
-      : model_(model), by_x_(by_x), by_u_(by_u) {}
+  OwnDerivatives(const Model& model, std::size_t force, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u)
+      : model_(model), force_(force), by_x_(by_x), by_u_(by_u) {}
   void add_by_position(std::size_t i, std::size_t j, const Mat3& k) override { add(by_x_, i, j, k); }
   void add_by_velocity(std::size_t i, std::size_t j, const Mat3& k) override { add(by_u_, i, j, k); }
 
  private:
   void add(BlockMatrix<B>& to, std::size_t i, std::size_t j, const Mat3& k) {
+    if (std::max(i, j) >= model_.nodes) refuse(i, j);
     if (!model_.feels[i]) return;
-    if (auto* block = to.find(model_.carrier[i], model_.carrier[j])) block->add(k);
+    auto* block = to.find(model_.carrier[i], model_.carrier[j]);
+    if (!block) refuse(i, j);
+    block->add(k);
+  }
+  [[noreturn]] void refuse(std::size_t i, std::size_t j) const {
+    throw InvalidInput(name_of_force(force_), sentence("derives the force on node ", i, " by node ", j),
+                       "its couplings to name that pair");
   }
   const Model& model_;
+  std::size_t force_;
   BlockMatrix<B>&by_x_, &by_u_;
 };
 
@@ -129,10 +88,10 @@ class BlockSolver : public StiffSolver {
       : system_(system),
         model_(model_of(system)),
         work_(work),
-        loaded_(model_.loaded && depends_on_state(model_)),
+        loaded_(depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_),
         timed_(depends_on_time(model_)),
-        pattern_(elimination_order(model_), couplings(model_)),
+        pattern_(pattern_of_equations(model_)),
         by_x_(pattern_, !rates_matter_),
         to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
@@ -166,10 +125,13 @@ class BlockSolver : public StiffSolver {
     }
     if (loaded_) {
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
-      const StateView seen = view(model_, state.time, work_.kinematics, work_.loads);
-      OwnDerivatives<B> own(model_, by_x_, *by_u_);
-      for (const auto& force : model_.scene.forces)
-        if (force->depends_on_state()) force->add_derivatives(seen, own);
+      StateView seen = view(model_, state.time, work_.kinematics, work_.loads);
+      for (const Model::Acting& acting : model_.acting) {
+        if (!acting.couplings.any() || !acting.couplings.derivatives()) continue;
+        seen.memory = memory_of(acting, state);
+        OwnDerivatives<B> own(model_, acting.index, by_x_, *by_u_);
+        acting.couplings.derivatives()(seen, own);
+      }
     }
     if (differences_) {
       const long cost = differences_->add(state, work_, by_x_, *by_u_);

@@ -95,9 +95,12 @@ Energies System::energies(const State& state, Workspace& work) const {
     result.potential -= model.mass[i] * model.gravity.dot(kin.p[i]);
   }
   if (!model.loaded) return result;
-  const StateView seen = view(model, state.time, kin, loads);
-  for (const Model::Acting& acting : model.acting)
-    if (acting.has_energy) result.potential += acting.force->energy(seen);
+  StateView seen = view(model, state.time, kin, loads);
+  for (const Model::Acting& acting : model.acting) {
+    if (!acting.has_energy) continue;
+    seen.memory = memory_of(acting, state);
+    result.potential += acting.force->energy(seen);
+  }
   return result;
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "dynamics/scene/model.h"
+
+namespace tendril {
+
+using NodePairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Pairs of nodes that springs couple: with twist up to the third neighbour, without (a hinge) up to the
+/// second; the first edge of a child sees its parent's frame. Under the nodes that carry them.
+NodePairs coupled_by_springs(const Model& model);
+
+/// Pairs of nodes that a force couples in the equations, under the nodes that carry them.
+/// \param by_frames  the pairs it names, and also the neighbours that turn the frames it may see and those
+///                   that its torques push: what differences need
+NodePairs coupled_by_force(const Model& model, const Couplings& couplings, bool by_frames);
+
+}  // namespace tendril

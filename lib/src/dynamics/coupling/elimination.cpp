@@ -1,0 +1,81 @@
+#include "elimination.h"
+
+#include <tendril/base/error.h>
+
+#include <algorithm>
+
+#include "coupled_nodes.h"
+
+namespace tendril {
+namespace {
+
+/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
+std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
+  const NodeRange& nodes = model.rods[rod];
+  std::vector<std::size_t> order;
+  for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
+    order.push_back(--high);
+    if (low < high && !model.ride_of(rod)) order.push_back(low++);
+  }
+  return order;
+}
+
+bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
+  const Model::Ride* ride = model.ride_of(child);
+  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
+}
+
+/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
+/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
+/// core.
+std::vector<std::size_t> elimination_order(const Model& model) {
+  std::vector<std::size_t> order;
+  for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
+    const std::vector<std::size_t> one = inwards(model, *r);
+    std::vector<std::size_t> two;
+    const bool paired = r + 1 != model.order.rend() && !rides_on(model, *r, *(r + 1));
+    if (paired) two = inwards(model, *++r);
+    for (std::size_t k = 0; k < std::max(one.size(), two.size()); ++k) {
+      if (k < one.size()) order.push_back(one[k]);
+      if (k < two.size()) order.push_back(two[k]);
+    }
+  }
+  return order;
+}
+
+[[noreturn]] void refuse(const Model::Acting& acting, const NodePairs& pairs, std::size_t most) {
+  const auto [a, b] = *std::max_element(pairs.begin(), pairs.end(), [](const auto& one, const auto& two) {
+    const auto far = [](const auto& pair) {
+      return std::max(pair.first, pair.second) - std::min(pair.first, pair.second);
+    };
+    return far(one) < far(two);
+  });
+  throw InvalidInput(name_of_force(acting.index),
+                     "couples " + std::to_string(pairs.size()) + " pairs of nodes, " + std::to_string(a) +
+                         " and " + std::to_string(b) + " among them",
+                     "couplings whose elimination takes at most " + std::to_string(most) +
+                         " products of blocks, or a method without linear equations");
+}
+
+}  // namespace
+
+BlockPattern pattern_of_equations(const Model& model) {
+  const std::vector<std::size_t> order = elimination_order(model);
+  const std::size_t most = std::max<std::size_t>(std::size_t{1} << 24, 64 * model.nodes);
+  NodePairs pairs = coupled_by_springs(model);
+  for (const Model::Acting& acting : model.acting) {
+    const NodePairs more = coupled_by_force(model, acting.couplings, acting.by_differences());
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  BlockPattern all(order, pairs, most);
+  if (all.complete()) return all;
+  pairs = coupled_by_springs(model);
+  for (const Model::Acting& acting : model.acting) {
+    const NodePairs more = coupled_by_force(model, acting.couplings, acting.by_differences());
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    if (!BlockPattern(order, pairs, most).complete()) refuse(acting, more, most);
+  }
+  return all;
+}
+
+}  // namespace tendril
