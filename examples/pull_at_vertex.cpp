@@ -2,6 +2,7 @@
 // takes the pull back to the point masses, torques on their frames included. Because it has an energy, the
 // run's energy balance covers it.
 #include <tendril/bind/binding.h>
+#include <tendril/dynamics/rod_curves.h>
 #include <tendril/dynamics/simulation.h>
 
 #include <cmath>
@@ -11,64 +12,40 @@ using namespace tendril;
 
 class PullAtVertex : public Force {
  public:
-  PullAtVertex(const Rod& rod, Points points, std::uint32_t vertex, const Vec3& target, double stiffness)
-      : fit_(3, rod.p),
-        binding_(through(rod.p, rod.q), points),
+  PullAtVertex(std::span<const Rod> rods, std::size_t rod, Points points, std::uint32_t vertex,
+               const Vec3& target, double stiffness)
+      : curves_(rods),
+        rod_(rod),
+        binding_(curves_.through(rod, rods[rod].p, rods[rod].q), points),
         vertex_(vertex),
         target_(target),
-        k_(stiffness) {
-    const NodeFrames frames = node_frames(rod.p, rod.q);
-    for (std::size_t i = 0; i < rod.p.size(); ++i) {
-      const Vec3 arm = rod.q[i] - rod.p[i];
-      along_m_.push_back(arm.dot(frames.frame[i].y));
-      along_t_.push_back(arm.dot(frames.frame[i].z));
-    }
-  }
+        k_(stiffness) {}
 
   void add(const StateView& state, const Loads& loads) const override {
-    const std::vector<Vec3> arm = arms(state);
-    const CurvePair pair = posed(state, arm);
+    const CurvePair pair = curves_.pair(state, rod_);
     const Vec3 force = k_ * (target_ - binding_.at(pair, vertex_));
     const ControlForces on_controls = binding_.pull_back({&pair, 1}, {&vertex_, 1}, {&force, 1}).front();
-    const MassLoads on_masses = loads_on_masses(fit_, on_controls, arm);
-    for (std::size_t i = 0; i < arm.size(); ++i) {
-      loads.force[i] += on_masses.force[i];
-      loads.torque[i] += on_masses.torque[i];
-    }
+    curves_.add_loads(state, rod_, on_controls, loads);
   }
   /// A point of an interpolating curve moves with all masses of its rod.
-  Couplings couplings(std::span<const NodeRange>) const override {
-    return Couplings::within(along_m_.size());
+  Couplings couplings(std::span<const NodeRange> rods) const override {
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i < rods[rod_].count; ++i) nodes.push_back(rods[rod_].first + i);
+    return Couplings::among(nodes);
   }
   bool twists() const override { return true; }
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override {
-    return 0.5 * k_ * (target_ - binding_.at(posed(state, arms(state)), vertex_)).squaredNorm();
+    return 0.5 * k_ * (target_ - binding_.at(curves_.pair(state, rod_), vertex_)).squaredNorm();
   }
 
  private:
-  CurvePair through(const std::vector<Vec3>& p, const std::vector<Vec3>& q) const {
-    return {fit_.knots(), fit_.solve(p), fit_.solve(q)};
-  }
-  std::vector<Vec3> arms(const StateView& state) const {
-    std::vector<Vec3> arm;
-    for (std::size_t i = 0; i < along_m_.size(); ++i)
-      arm.push_back(along_m_[i] * state.m[i] + along_t_[i] * state.t[i]);
-    return arm;
-  }
-  CurvePair posed(const StateView& state, const std::vector<Vec3>& arm) const {
-    const std::vector<Vec3> p(state.p.begin(), state.p.end());
-    std::vector<Vec3> q = p;
-    for (std::size_t i = 0; i < q.size(); ++i) q[i] += arm[i];
-    return through(p, q);
-  }
-
-  Interpolator fit_;
+  RodCurves curves_;
+  std::size_t rod_;
   bind::Binding binding_;
   std::uint32_t vertex_;
   Vec3 target_;
   double k_;
-  std::vector<double> along_m_, along_t_;
 };
 
 int main() {
@@ -80,7 +57,7 @@ int main() {
   scene.anchors.push_back({.rod = 0, .node = 0});
   // The corner of a plate at the tip: pulled aside it bends the rod, and twists it.
   const std::vector<Vec3> plate{{0.9, -0.2, 0}, {0.9, 0.2, 0}, {1, 0.2, 0}, {1, -0.2, 0}};
-  scene.forces.push_back(std::make_shared<PullAtVertex>(scene.rods[0], plate, 2, Vec3(0.9, 0.2, 0.2), 0.5));
+  scene.forces.push_back(std::make_shared<PullAtVertex>(scene.rods, 0, plate, 2, Vec3(0.9, 0.2, 0.2), 0.5));
   const System system(scene);
 
   Simulation simulation(system, system.rest_state(), {.tolerance = 1e-7});

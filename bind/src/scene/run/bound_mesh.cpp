@@ -1,4 +1,5 @@
 #include <tendril/bind/import.h>
+#include <tendril/dynamics/rod_curves.h>
 #include <tendril/scene/bound_mesh.h>
 
 #include <algorithm>
@@ -6,19 +7,16 @@
 namespace tendril::scene {
 namespace {
 
-Interpolator rest_fit(const SceneFile& file, const Rod& rod) {
-  const int degree = std::min(file.options.degree, static_cast<int>(rod.p.size()) - 1);
-  return {degree, rod.p, file.options.parametrisation};
+RodCurves curves_of(const SceneFile& file) {
+  return RodCurves(file.scene.rods, file.options.degree, file.options.parametrisation);
 }
 
 bind::Binding bind_at_rest(const SceneFile& file, const bind::PolygonMesh& mesh, bind::BindMode mode,
                            int threads) {
+  const RodCurves curves = curves_of(file);
   std::vector<CurvePair> rest;
-  for (const std::size_t k : file.bound_to) {
-    const Rod& rod = file.scene.rods.at(k);
-    const Interpolator fit = rest_fit(file, rod);
-    rest.emplace_back(fit.knots(), fit.solve(rod.p), fit.solve(rod.q));
-  }
+  for (const std::size_t k : file.bound_to)
+    rest.push_back(curves.through(k, file.scene.rods.at(k).p, file.scene.rods[k].q));
   try {
     return {rest, mesh, bind::BindOptions{.mode = mode, .threads = threads}};
   } catch (const InvalidInput& error) {
@@ -40,11 +38,13 @@ struct Reach {
 
 /// Of each of the curve-pairs that the mesh follows; no distances where everything is reached.
 std::vector<Reach> reaches_of(const SceneFile& file) {
+  const RodCurves curves = curves_of(file);
   std::vector<Reach> out;
   for (const std::size_t k : file.bound_to) {
     out.emplace_back();
     if (file.reach.at(k).empty()) continue;
-    out.back() = {file.reach[k], rest_fit(file, file.scene.rods[k]).parameters()};
+    const std::span<const double> parameters = curves.parameters(k);
+    out.back() = {file.reach[k], {parameters.begin(), parameters.end()}};
   }
   return out;
 }

@@ -1,4 +1,5 @@
 #include <tendril/base/error.h>
+#include <tendril/dynamics/rod_curves.h>
 #include <tendril/dynamics/simulation.h>
 
 #include <algorithm>
@@ -11,15 +12,6 @@
 
 namespace tendril {
 namespace {
-
-std::vector<Interpolator> fits_of(const System& system, const SimulationOptions& options) {
-  std::vector<Interpolator> fits;
-  for (const Rod& rod : system.scene().rods) {
-    const int degree = std::min(options.degree, static_cast<int>(rod.p.size()) - 1);
-    fits.emplace_back(degree, rod.p, options.parametrisation);
-  }
-  return fits;
-}
 
 void check(const SimulationOptions& options) {
   const auto positive = [](const char* what, double value) {
@@ -90,7 +82,8 @@ const char* to_string(Stop stop) {
 }
 
 struct Simulation::Implementation {
-  Implementation(const System& s, State start, const SimulationOptions& o) : system(&s), fits(fits_of(s, o)) {
+  Implementation(const System& s, State start, const SimulationOptions& o)
+      : system(&s), curves(s, o.degree, o.parametrisation) {
     for (const Anchor& anchor : s.scene().anchors)
       if (std::isfinite(anchor.until)) releases.push_back(anchor.until);
     std::sort(releases.begin(), releases.end());
@@ -98,21 +91,7 @@ struct Simulation::Implementation {
     if (released) system = lay_out(start.time);
     system->remember(start, *system->make_workspace());
     controller = make_controller(*system, std::move(start), o);
-    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
-    for (std::size_t r = 0; r < fits.size(); ++r)
-      pairs.emplace_back(fits[r].knots(), primary(r), orientation(q, r));
-  }
-
-  std::vector<Vec3> primary(std::size_t r) const {
-    const NodeRange& range = system->rods()[r];
-    std::vector<Vec3> p;
-    for (std::size_t i = 0; i < range.count; ++i)
-      p.push_back(controller->state().y.segment<3>(3 * static_cast<Eigen::Index>(range.first + i)));
-    return fits[r].solve(p);
-  }
-  std::vector<Vec3> orientation(const std::vector<Vec3>& q, std::size_t r) const {
-    const NodeRange& range = system->rods()[r];
-    return fits[r].solve(Points(q).subspan(range.first, range.count));
+    pairs = curves.pairs(*system, controller->state(), controller->workspace());
   }
 
   const System* lay_out(double from) {
@@ -158,8 +137,7 @@ struct Simulation::Implementation {
 
   void fit() {
     if (fitted) return;
-    const std::vector<Vec3> q = system->orientation_masses(controller->state(), controller->workspace());
-    for (std::size_t r = 0; r < fits.size(); ++r) pairs[r].set_control_points(primary(r), orientation(q, r));
+    curves.update(*system, controller->state(), controller->workspace(), pairs);
     fitted = true;
   }
 
@@ -189,7 +167,7 @@ struct Simulation::Implementation {
   const System* system;
   std::unique_ptr<Controller> controller;
   std::vector<double> releases;  ///< ascending
-  std::vector<Interpolator> fits;
+  RodCurves curves;
   std::vector<CurvePair> pairs;
   bool fitted = true;  ///< the pairs are those of the present state
   std::vector<std::pair<Follower*, When>> followers;
@@ -253,7 +231,7 @@ std::span<const CurvePair> Simulation::pairs() const {
 }
 
 std::span<const double> Simulation::parameters(std::size_t rod) const {
-  return self_->fits.at(rod).parameters();
+  return self_->curves.parameters(rod);
 }
 
 }  // namespace tendril

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <tendril/curve/control_forces.h>
+#include <tendril/curve/curve_pair.h>
+#include <tendril/dynamics/force.h>
+#include <tendril/dynamics/system.h>
+
+namespace tendril {
+
+/// The axial curve-pairs of rods: primary curves through the masses p_i, orientation curves through the
+/// orientation masses q_i = p_i + a_i m_i + b_i t_i, which move with the node frames as the rest shape has
+/// them. Knots and parameters come from the rest shape and stay (Interpolator). A rod of fewer masses has a
+/// lower degree. World frame, the scene's units; a pair costs O(nodes of its rod).
+class TENDRIL_CORE_API RodCurves {
+ public:
+  /// Throws InvalidInput, naming the rod, where the rest shape has no frames or no curve passes through it.
+  explicit RodCurves(std::span<const Rod> rods, int degree = 3,
+                     Parametrisation how = Parametrisation::centripetal);
+  /// Those of a system's scene.
+  explicit RodCurves(const System& system, int degree = 3, Parametrisation how = Parametrisation::centripetal)
+      : RodCurves(system.scene().rods, degree, how) {}
+
+  std::size_t size() const { return rods_.size(); }  ///< of rods
+  /// Of the masses on their rod's curve, in [0, 1].
+  std::span<const double> parameters(std::size_t rod) const { return rods_.at(rod).fit.parameters(); }
+
+  /// The curve-pair of a rod through masses p and orientation masses q, as many as it has nodes.
+  CurvePair through(std::size_t rod, Points p, Points q) const;
+
+  /// The curve-pairs at a state of a system of these rods, directors of rods without twist state included.
+  /// Throws InvalidInput where the state has no frames.
+  std::vector<CurvePair> pairs(const System& system, const State& state, System::Workspace& work) const;
+  /// The same into pairs made before.
+  void update(const System& system, const State& state, System::Workspace& work,
+              std::span<CurvePair> pairs) const;
+
+  /// The curve-pair of a rod at what a force sees. Throws InvalidInput where the rod's twist state is left
+  /// out: it has no directors then, and a force that asks for them says twists().
+  CurvePair pair(const StateView& state, std::size_t rod) const;
+
+  /// Adds what forces on the control points of pair(state, rod) mean for the masses (loads_on_masses): loads
+  /// that do the same work when the masses move and their frames turn. Throws as pair() does, and on a wrong
+  /// number of control points.
+  void add_loads(const StateView& state, std::size_t rod, const ControlForces& forces,
+                 const Loads& loads) const;
+
+ private:
+  struct One {
+    Interpolator fit;
+    std::size_t first;               ///< flat index of its first node
+    std::vector<double> by_m, by_t;  ///< q - p in the rest frames
+  };
+  std::vector<Vec3> arms(const StateView& state, std::size_t rod) const;
+
+  std::vector<One> rods_;
+};
+
+}  // namespace tendril

@@ -1,0 +1,101 @@
+#include <tendril/base/error.h>
+#include <tendril/dynamics/rod_curves.h>
+
+#include <algorithm>
+
+namespace tendril {
+namespace {
+
+std::string name_of(std::size_t rod) {
+  return "rods[" + std::to_string(rod) + "]";
+}
+
+}  // namespace
+
+RodCurves::RodCurves(std::span<const Rod> rods, int degree, Parametrisation how) {
+  if (degree < 1 || degree > kMaxDegree)
+    throw InvalidInput("degree", std::to_string(degree), "1 to " + std::to_string(kMaxDegree));
+  std::size_t first = 0;
+  for (const Rod& rod : rods) {
+    const std::size_t n = rod.p.size();
+    const std::string name = name_of(rods_.size());
+    if (n < 2 || rod.q.size() != n)
+      throw InvalidInput(name, std::to_string(n) + " and " + std::to_string(rod.q.size()) + " masses",
+                         "at least 2, and as many orientation masses");
+    One one{Interpolator(std::min(degree, static_cast<int>(n) - 1), rod.p, how), first, {}, {}};
+    const NodeFrames frames = node_frames(rod.p, rod.q);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (frames.status[i] != FrameStatus::ok)
+        throw InvalidInput(name + " node " + std::to_string(i), "no frame", "a rest shape with frames");
+      const Vec3 arm = rod.q[i] - rod.p[i];
+      one.by_m.push_back(arm.dot(frames.frame[i].y));
+      one.by_t.push_back(arm.dot(frames.frame[i].z));
+    }
+    rods_.push_back(std::move(one));
+    first += n;
+  }
+}
+
+CurvePair RodCurves::through(std::size_t rod, Points p, Points q) const {
+  const Interpolator& fit = rods_.at(rod).fit;
+  return {fit.knots(), fit.solve(p), fit.solve(q)};
+}
+
+void RodCurves::update(const System& system, const State& state, System::Workspace& work,
+                       std::span<CurvePair> pairs) const {
+  if (pairs.size() != size() || system.rods().size() != size())
+    throw InvalidInput("pairs", std::to_string(pairs.size()) + " of them", "one for each rod");
+  const std::vector<Vec3> q = system.orientation_masses(state, work);
+  if (q.empty()) throw InvalidInput("state", "a node without a frame", "a state with frames");
+  std::vector<Vec3> p;
+  for (std::size_t r = 0; r < size(); ++r) {
+    const NodeRange& range = system.rods()[r];
+    p.clear();
+    for (std::size_t i = range.first; i < range.first + range.count; ++i)
+      p.push_back(state.y.segment<3>(3 * static_cast<Eigen::Index>(i)));
+    const Interpolator& fit = rods_[r].fit;
+    pairs[r].set_control_points(fit.solve(p), fit.solve(Points(q).subspan(range.first, range.count)));
+  }
+}
+
+std::vector<CurvePair> RodCurves::pairs(const System& system, const State& state,
+                                        System::Workspace& work) const {
+  std::vector<CurvePair> pairs;
+  for (const One& one : rods_) {
+    const std::vector<Vec3> none(one.by_m.size(), Vec3::Zero());
+    pairs.emplace_back(one.fit.knots(), none, none);
+  }
+  update(system, state, work, pairs);
+  return pairs;
+}
+
+std::vector<Vec3> RodCurves::arms(const StateView& state, std::size_t rod) const {
+  const One& one = rods_.at(rod);
+  std::vector<Vec3> arms;
+  for (std::size_t i = 0; i < one.by_m.size(); ++i) {
+    const Vec3& m = state.m[one.first + i];
+    if (m.isZero(0.0))
+      throw InvalidInput(name_of(rod), "its twist state is left out",
+                         "directors: a force that asks for them says twists()");
+    arms.push_back(one.by_m[i] * m + one.by_t[i] * state.t[one.first + i]);
+  }
+  return arms;
+}
+
+CurvePair RodCurves::pair(const StateView& state, std::size_t rod) const {
+  std::vector<Vec3> q = arms(state, rod);
+  const Points p = state.p.subspan(rods_[rod].first, q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = p[i] + q[i];
+  return through(rod, p, q);
+}
+
+void RodCurves::add_loads(const StateView& state, std::size_t rod, const ControlForces& forces,
+                          const Loads& loads) const {
+  const MassLoads on_masses = loads_on_masses(rods_.at(rod).fit, forces, arms(state, rod));
+  for (std::size_t i = 0; i < on_masses.force.size(); ++i) {
+    loads.force[rods_[rod].first + i] += on_masses.force[i];
+    loads.torque[rods_[rod].first + i] += on_masses.torque[i];
+  }
+}
+
+}  // namespace tendril
