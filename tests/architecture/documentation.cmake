@@ -28,12 +28,6 @@ endif()
 file(READ ${WORK}/warnings.txt warnings)
 # Explicit instantiations have the documentation of their templates.
 string(REGEX REPLACE "[^\n]*: warning: Member [A-Za-z_]+< [^\n]*\n" "" warnings "${warnings}")
-# Headers that are being rewritten, and documented with it.
-foreach(pending force forces simulation system)
-  string(REGEX REPLACE "[^\n]*/tendril/dynamics/${pending}\\.h:[0-9]+: warning: (Member|Compound)[^\n]*\n" "" warnings "${warnings}")
-  string(REGEX REPLACE "[^\n]*/tendril/dynamics/${pending}\\.h:[0-9]+: warning: The following[^\n]*\n(  parameter[^\n]*\n)*" ""
-    warnings "${warnings}")
-endforeach()
 
 set(unknown "")
 file(READ ${BIBLIOGRAPHY} bibliography)

@@ -43,7 +43,7 @@ struct Loads {
   MutablePoints torque;  ///< per node
 
   /// Refuses the state, naming a node: a contact does where its gap is closed. The step that came here is
-  /// thrown away and a shorter one tried; where steps are fixed, or none is short enough, the run stops as
+  /// rejected and a shorter one tried; where steps are fixed, or none is short enough, the run stops as
   /// Stop::not_evaluable.
   void refuse(std::size_t node) const {
     if (refused && *refused == kNone) *refused = node;
@@ -91,7 +91,7 @@ class TENDRIL_CORE_API Force {
   virtual std::vector<double> breaks() const { return {}; }
 
   /// Called at the start of a run, after each accepted step and after Simulation::change, never for a step
-  /// that is thrown away: what to remember from here on, which add() and energy() find as StateView::memory.
+  /// that is rejected: what to remember from here on, which add() and energy() find as StateView::memory.
   /// A force that remembers nothing at the start is not asked again. Where the energy jumps with the memory,
   /// the jump counts as work.
   /// \param before  what it remembered so far, null at first; return it to keep it

@@ -8,9 +8,10 @@
 
 namespace tendril {
 
-/// m g on every mass (thesis 3.17); energy -sum m g.p.
+/// m g on every mass ([Chan 2008] 3.17); energy -sum m g.p.
 class TENDRIL_CORE_API Gravity final : public Force {
  public:
+  /// \param acceleration  g, finite; else InvalidInput
   explicit Gravity(const Vec3& acceleration);
   void add(const StateView& state, const Loads& loads) const override;
   Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
@@ -28,21 +29,22 @@ class TENDRIL_CORE_API Gravity final : public Force {
 /// over one decade around `gust_frequency`; deterministic by `seed`. With `switched` the whole wind is
 /// multiplied by that signal.
 struct WindOptions {
-  Vec3 mean = Vec3::Zero();     ///< [length / time]
-  double gust = 0.0;            ///< root mean square gust over |mean|, times sqrt(2)
-  double gust_frequency = 1.0;  ///< [1 / time]
-  int waves = 8;
-  std::uint64_t seed = 1;
-  double air_density = 1.2;       ///< [mass / length^3]
-  double normal_drag = 1.2;       ///< coefficient for flow across an edge
-  double tangential_drag = 0.02;  ///< for flow along it
-  Signal switched = Signal::constant(1.0);
+  Vec3 mean = Vec3::Zero();                 ///< [length / time]
+  double gust = 0.0;                        ///< root mean square gust over |mean|, times sqrt(2)
+  double gust_frequency = 1.0;              ///< [1 / time]
+  int waves = 8;                            ///< 0 to 1000
+  std::uint64_t seed = 1;                   ///< of the waves' phases
+  double air_density = 1.2;                 ///< [mass / length^3]
+  double normal_drag = 1.2;                 ///< coefficient for flow across an edge
+  double tangential_drag = 0.02;            ///< for flow along it
+  Signal switched = Signal::constant(1.0);  ///< factor on the whole wind
 };
 
-/// Drag of the air on every edge (thesis 3.18, as a vector): with w = v_edge - u, split across and along the
-/// edge, -1/2 rho width |e| (C_n |w_n| w_n + C_t |w_t| w_t), half to each end.
+/// Drag of the air on every edge ([Chan 2008] 3.18, as a vector): with w = v_edge - u, split across and along
+/// the edge, -1/2 rho width |e| (C_n |w_n| w_n + C_t |w_t| w_t), half to each end.
 class TENDRIL_CORE_API Wind : public Force {
  public:
+  /// Throws InvalidInput for options out of range.
   explicit Wind(const WindOptions& options);
   void add(const StateView& state, const Loads& loads) const override;
   Couplings couplings(std::span<const NodeRange> rods) const override;
@@ -65,7 +67,9 @@ class TENDRIL_CORE_API Wind : public Force {
 /// frame.
 class TENDRIL_CORE_API PointLoad : public Force {
  public:
+  /// What it applies.
   enum class Kind { force, torque };
+  /// Throws InvalidInput for a direction that is not finite; check() for a node that is not there.
   PointLoad(Kind kind, std::size_t rod, std::size_t node, const Vec3& direction, Signal signal);
   void add(const StateView& state, const Loads& loads) const override;
   void check(std::span<const NodeRange> rods) const override;
@@ -86,6 +90,7 @@ class TENDRIL_CORE_API PointLoad : public Force {
 /// A spring of rest length 0 that pulls a node towards a point: -K (p - target), energy 1/2 K |p - target|^2.
 class TENDRIL_CORE_API PullTowards : public Force {
  public:
+  /// Throws InvalidInput for a target that is not finite or a negative stiffness [force / length].
   PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
   bool depends_on_time() const override { return false; }
   void add(const StateView& state, const Loads& loads) const override;

@@ -14,9 +14,13 @@ namespace tendril {
 class TENDRIL_CORE_API RodCurves {
  public:
   /// Throws InvalidInput, naming the rod, where the rest shape has no frames or no curve passes through it.
+  /// \param rods    not kept
+  /// \param degree  1 to kMaxDegree
+  /// \param how     gives the parameters
   explicit RodCurves(std::span<const Rod> rods, int degree = 3,
                      Parametrisation how = Parametrisation::centripetal);
   /// Those of a system's scene.
+  /// Of the rods of a system, which is not kept.
   explicit RodCurves(const System& system, int degree = 3, Parametrisation how = Parametrisation::centripetal)
       : RodCurves(system.scene().rods, degree, how) {}
 

@@ -13,30 +13,32 @@
 namespace tendril {
 
 /// A scene flattened once into the arrays its motion needs: no twist source, no twist state; no force, no
-/// loads. Equations of motion: shared-frame rods with the elastic energy of rod.h, its exact gradient, the
+/// loads. Equations of motion: rods whose bending is measured in node frames
+/// shared by both edges, with the elastic energy of rod.h, its exact gradient, the
 /// connection term of the carried director and the gyroscopic force of the spin. Const and pure: safe to call
 /// from several threads, each with its own Workspace.
 class TENDRIL_CORE_API System {
  public:
   /// Throws InvalidInput naming rod, node and field ("rods[0].mass[3]").
-  /// \param from  anchors that let go at this time or before hold nothing; the layout of the state is that of
-  ///              the whole scene whatever they do
+  /// \param scene  copied
+  /// \param from  anchors released at this time or before hold nothing; the layout of the state is that of
+  ///              the whole scene whatever is released
   explicit System(Scene scene, double from = -std::numeric_limits<double>::infinity());
   ~System();
-  System(System&&) noexcept;
-  System& operator=(System&&) noexcept;
+  System(System&&) noexcept;             ///< leaves an object to be destroyed or assigned to
+  System& operator=(System&&) noexcept;  ///< the same
 
   class Workspace;  ///< scratch arrays of one evaluation
   struct TENDRIL_CORE_API Release {
-    void operator()(Workspace* work) const;
+    void operator()(Workspace* work) const;  ///< deletes it
   };
-  using WorkspacePtr = std::unique_ptr<Workspace, Release>;
-  WorkspacePtr make_workspace() const;
+  using WorkspacePtr = std::unique_ptr<Workspace, Release>;  ///< owns a workspace
+  WorkspacePtr make_workspace() const;                       ///< for calls on this system, one at a time
 
-  std::span<const NodeRange> rods() const;
-  std::size_t node_count() const;
-  std::size_t twist_count() const;  ///< nodes with a twist state
-  const Scene& scene() const;
+  std::span<const NodeRange> rods() const;  ///< nodes of each rod
+  std::size_t node_count() const;           ///< n
+  std::size_t twist_count() const;          ///< nodes with a twist state
+  const Scene& scene() const;               ///< the copy
   /// What the scene did not need, one sentence each.
   const std::vector<std::string>& left_out() const;
 
@@ -52,6 +54,7 @@ class TENDRIL_CORE_API System {
   Evaluation elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y, double& energy,
                               Eigen::VectorXd& gradient, Workspace& work) const;
 
+  /// Energies of a state whose equations can be evaluated.
   Energies energies(const State& state, Workspace& work) const;
 
   /// Makes the state's own frames its reference: theta becomes 0, twists are unwrapped, anchored entries get
@@ -69,8 +72,8 @@ class TENDRIL_CORE_API System {
   /// Orientation masses q_i = p_i + r_i (a_i m_i + b_i t_i), with r_i, a_i, b_i those of the rest shape.
   std::vector<Vec3> orientation_masses(const State& state, Workspace& work) const;
 
-  /// Estimate of the largest frequency [rad / time] about the state: Lanczos on M^-1 dF/dx with `vectors`
-  /// evaluations.
+  /// Estimate of the largest frequency [rad / time] about the state: Lanczos's method [Lanczos 1950] on
+  /// M^-1 dF/dx with `vectors` evaluations.
   double largest_frequency(const State& state, int vectors, Workspace& work) const;
 
  private:

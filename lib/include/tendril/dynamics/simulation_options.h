@@ -1,0 +1,35 @@
+#pragma once
+
+#include <tendril/curve/fit.h>
+#include <tendril/dynamics/method.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace tendril {
+
+/// How a run is controlled. Lengths, velocities, angles and spins have error scales of their own: the rods'
+/// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
+/// and speed / l. The speed of a mass lighter than half the mean of its rod counts by the square root of the
+/// ratio, for so much less energy it carries, but at least by a hundredth.
+struct SimulationOptions {
+  Method method = Method::cash_karp;  ///< how steps are taken
+  /// Makes a stepper of the caller's, instead of the method's. With a fixed step it may be any Stepper;
+  /// without it must be an EmbeddedStepper, and one that is not stiff is capped by Cash-Karp's guard.
+  std::function<std::unique_ptr<Stepper>(const System&)> own_stepper = {};
+  /// Step of the methods that do not choose their own. Stretches between outputs, jumps of a
+  /// force and the end are divided into equal steps of at most this.
+  std::optional<double> fixed_step = {};
+  double tolerance = 1e-6;                ///< of a step's error, relative to those scales, largest component
+  std::optional<double> first_step = {};  ///< default: a hundredth of the run, capped by the guard
+  std::optional<double> largest_step = {};  ///< default: the whole run
+  double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
+  double total_amplification = 0.1;  ///< guard: the same over the whole run
+  double energy_limit = 1e-2;        ///< of the energy balance, relative to the largest energy seen
+  long work_limit = 20'000'000;      ///< evaluations of the equations
+  int degree = 3;                    ///< of the curves through the masses (lower for rods of fewer masses)
+  Parametrisation parametrisation = Parametrisation::centripetal;  ///< of those curves
+};
+
+}  // namespace tendril
