@@ -10,23 +10,25 @@ using namespace tendril;
 
 class Magnet : public Force {
  public:
-  Magnet(std::size_t node, const Vec3& place, double strength)
-      : node_(node), place_(place), strength_(strength) {}
+  Magnet(std::size_t node, const Vec3& position, double strength)
+      : node_(node), position_(position), strength_(strength) {}
 
+  // [readme]
   void add(const StateView& state, const Loads& loads) const override {
-    const Vec3 d = place_ - state.p[node_];
+    const Vec3 d = position_ - state.p[node_];
     const double r = d.norm();
     loads.force[node_] += strength_ / (r * r * r) * d;
   }
   Couplings couplings(std::span<const NodeRange>) const override { return Couplings::among({node_}); }
+  // [readme]
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override {
-    return -strength_ / (place_ - state.p[node_]).norm();
+    return -strength_ / (position_ - state.p[node_]).norm();
   }
 
  private:
   std::size_t node_;
-  Vec3 place_;
+  Vec3 position_;
   double strength_;
 };
 
