@@ -79,7 +79,8 @@ std::vector<Vec3> rest_points(const Case& c) {
   return c.mesh.at(c.mesh.rest);
 }
 
-/// Median seconds of a frame with a ball; \param counts  of each frame, compared where there are some
+/// Median seconds of a frame with a ball;
+/// \param counts  of each frame, compared where there are some
 double time_peer(const Case& c, NamedPeer& named, std::vector<std::size_t>& counts, Settings& settings) {
   std::vector<Vec3> at(c.mesh.binding.size());
   std::vector<std::size_t> mine(c.poses.size());

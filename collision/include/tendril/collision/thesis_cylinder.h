@@ -8,11 +8,11 @@
 
 namespace tendril::collision {
 
-/// The bounding cylinder of the thesis's 3.7, as it is written there: a comparator, no bounding volume. The
-/// curve's domain is cut into equal regions, one fewer than it has control points. In each the vertex
-/// farthest from the curve, r = sqrt(u^2 + v^2), is a knot (t, r); the ends of the curve are knots of radius
-/// 0; between knots r is linear (3.39). An empty region has the radius of the one before it (0 before the
-/// first), here at the region's middle, which the source leaves open.
+/// The bounding cylinder of [Chan 2008] section 3.7, as it is written there: a comparator, no bounding
+/// volume. The curve's domain is cut into equal regions, one fewer than it has control points. In each the
+/// vertex farthest from the curve, r = sqrt(u^2 + v^2), is a knot (t, r); the ends of the curve are knots of
+/// radius 0; between knots r is linear (3.39). An empty region has the radius of the one before it (0 before
+/// the first), here at the region's middle, which the source leaves open.
 ///
 /// It errs both ways. Not held: vertices above the chord between two knots, all that lies beyond or near the
 /// two ends, the knots themselves (a point is inside where r is *smaller*), and whatever of a triangle is
