@@ -40,8 +40,8 @@ struct Results {
 constexpr double kReferencePart = 0.3;
 
 /// Makes the reference, then goes down all ladders together, loosest rungs first, until the budget is spent.
-/// Where a run was capped the tighter ones of its method are skipped.
-/// \param told  called before each run with the part that is done
+/// Where a run was capped the tighter ones of its method are skipped. \param told  called before each run
+/// with the part that is done
 Results carry_out(const Study& study, const Plan& plan, const std::function<void(double part)>& told);
 
 }  // namespace tendril::runner

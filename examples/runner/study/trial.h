@@ -68,9 +68,8 @@ class Study {
   void on_progress(std::function<bool(double part)> progress) { progress_ = std::move(progress); }
   struct Cancelled {};
 
-  /// \param cap  CPU seconds.
-  /// \param patient  lifts the scene's limit on work, so that only the cap counts; and that on lost energy
-  ///                 for backward Euler
+  /// \param cap  CPU seconds. \param patient  lifts the scene's limit on work, so that only the cap counts;
+  /// and that on lost energy for backward Euler
   Trial run(const Setting& setting, double cap, bool patient = false) const;
 
   /// Largest stable step of an explicit method of fixed step at the start; 0 for the others.
