@@ -33,8 +33,11 @@ std::string small_scene(bool joined = false, double young = 2e5) {
   return scene.dump();
 }
 
+/// Time is counted in evaluations, so that nothing depends on how fast the machine is.
+constexpr const char* kCounted = "report scene.json --out out --rate 1e6 ";
+
 Json report_of(const Folder& folder, const std::string& options, int code = 0) {
-  const Outcome outcome = folder.run("report scene.json --out out --json " + options);
+  const Outcome outcome = folder.run(std::string(kCounted) + "--json " + options);
   EXPECT_EQ(outcome.code, code) << outcome.err;
   return Json::parse(outcome.out);
 }
@@ -49,7 +52,7 @@ std::vector<Json> runs_of(const Json& report, const std::string& method) {
 TEST(Report, WritesWhatItPrintsAndAPicture) {
   const Folder folder;
   folder.write("scene.json", small_scene());
-  const Outcome outcome = folder.run("report scene.json --out out --json --tolerances 1e-3,1e-5 --budget 20");
+  const Outcome outcome = folder.run(std::string(kCounted) + "--json --tolerances 1e-3,1e-5 --budget 20");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   const Json report = Json::parse(outcome.out);
@@ -62,7 +65,8 @@ TEST(Report, WritesWhatItPrintsAndAPicture) {
   EXPECT_EQ(report.at("runs").size(), 3U * 2U + 2U * 4U);
   const std::string svg = bytes_of(folder / "out/report.svg");
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
-  for (const char* text : {"</svg>", ">rodas<", ">automatic<", ">verlet<", "CPU time [s]", "position error"})
+  for (const char* text :
+       {"</svg>", ">rodas<", ">automatic<", ">verlet<", "time by evaluations [s]", "position error"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
@@ -192,7 +196,7 @@ TEST(Certification, FailsAloudThroughTheProgram) {
   const Folder folder;
   folder.write("scene.json", small_scene());
   const Outcome outcome =
-      folder.run("report scene.json --out out --tolerances 1e-2,1e-3 --target 1e-13 --budget 10");
+      folder.run(std::string(kCounted) + "--tolerances 1e-2,1e-3 --target 1e-13 --budget 10");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.err.find("not certified"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("No run met 1e-13"), std::string::npos) << outcome.out;
@@ -255,6 +259,17 @@ TEST(Report, CertifiesWhatIsTooStiffForExplicitMethods) {
   EXPECT_EQ(report.at("recommended").at("method"), "automatic");
 }
 
+TEST(Report, IsTheSameTwiceWhereTimeIsCounted) {
+  const Folder folder;
+  folder.write("scene.json", stiff_chain());
+  const std::string options = "--methods rodas,automatic --tolerances 1e-3,1e-5 --budget 4";
+  const Json once = report_of(folder, options);
+  EXPECT_EQ(once, report_of(folder, options));
+  EXPECT_EQ(once.at("evaluations_per_second"), 1e6);
+  for (const Json& run : once.at("runs"))
+    EXPECT_DOUBLE_EQ(run.at("cpu_s").get<double>(), 1e-6 * run.at("evaluations").get<double>());
+}
+
 TEST(Report, CertifiesATreeToo) {
   const Folder folder;
   folder.write("scene.json", small_scene(true));
@@ -271,7 +286,7 @@ TEST(Report, RefusesBadInput) {
   for (const std::string& arguments :
        {std::string("report missing.json --out out"), std::string("report scene.json"),
         good + "--methods leapfrog", good + "--tolerances 1e-3,-1", good + "--tolerances x",
-        good + "--budget 0", good + "--cap -1", good + "--target nan", good + "--steps 0",
+        good + "--budget 0", good + "--rate 0", good + "--cap -1", good + "--target nan", good + "--steps 0",
         std::string("report scene.json --out file")}) {
     const Outcome outcome = folder.run(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments << '\n' << outcome.err;

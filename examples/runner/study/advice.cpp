@@ -21,9 +21,9 @@ std::string as_scene_says(const Setting& setting) {
          (setting.by_step() ? "fixed_step" : "tolerance") + "\": " + shortest(setting.value);
 }
 
-std::string costs(const Trial& trial) {
-  return number("%.3g s of CPU time", trial.cpu) + " for an error of " +
-         number("%.1e", trial.error->position);
+std::string costs(const Results& results, const Trial& trial) {
+  return number("%.3g s of ", trial.cpu) + (results.plan.rate ? "counted" : "CPU") +
+         " time for an error of " + number("%.1e", trial.error->position);
 }
 
 /// \param wanted  which trials count
@@ -39,7 +39,7 @@ const Trial* least(const Results& results, const Wanted& wanted, const Value& va
 
 std::string sentence(const Results& results, const std::string& goal, const Trial& best,
                      const Trial& cheapest) {
-  std::string out = "For " + goal + " take " + as_scene_says(best.setting) + ": " + costs(best);
+  std::string out = "For " + goal + " take " + as_scene_says(best.setting) + ": " + costs(results, best);
   if (cheapest.cpu < 0.95 * best.cpu) {
     out += "; " + to_string(cheapest.setting) + ", takes " + number("%.2f", cheapest.cpu / best.cpu) +
            " times that";
@@ -68,7 +68,7 @@ Advice advise(const Results& results) {
     if (closest == nullptr) return {{}, "No run of the ladder finished."};
     return {{},
             "No run met " + goal + "; closest came " + as_scene_says(closest->setting) + ", " +
-                costs(*closest) + "."};
+                costs(results, *closest) + "."};
   }
   const auto chosen = [&](const Trial& trial) {
     return controlled(trial) && trial.setting.method == Method::automatic &&

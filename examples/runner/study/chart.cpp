@@ -278,7 +278,8 @@ std::string to_svg(const Results& results, const Study& study) {
           .with("text-anchor", "middle")
           .with("class", "title")
           .end("position error");
-  body += time.draw("CPU time [s]") + work.draw("evaluations of the equations");
+  body += time.draw(results.plan.rate ? "time by evaluations [s]" : "CPU time [s]") +
+          work.draw("evaluations of the equations");
   double y = kTop + kPanelHeight + 76;
   body += legend(results, y);
   body += notes(results, y);

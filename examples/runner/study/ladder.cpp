@@ -98,7 +98,6 @@ void descend(const Study& study, Descent& descent, double rung, double cap, cons
 
 Results carry_out(const Study& study, const Plan& plan, const std::function<void(double part)>& told) {
   Results out{plan, scene_length(study.system()), {}, {}, {}, {}};
-  const double begin = cpu_seconds();
   told(0.0);
   const double tightest = plan.tolerances.empty() ? 1e-8 : 0.1 * plan.tolerances.back();
   out.reference = make_reference(study, 0.5 * plan.budget, tightest, {0.1 * plan.target, plan.target});
@@ -113,7 +112,7 @@ Results carry_out(const Study& study, const Plan& plan, const std::function<void
     told(kReferencePart + (1.0 - kReferencePart) * static_cast<double>(k) / static_cast<double>(most));
     for (Descent& descent : descents) {
       if (k >= descent.rungs.size() || descent.impossible) continue;
-      descend(study, descent, descent.rungs[k], plan.budget - (cpu_seconds() - begin), out);
+      descend(study, descent, descent.rungs[k], plan.budget - study.spent(), out);
     }
   }
   for (Descent& descent : descents)

@@ -12,6 +12,7 @@ struct Plan {
   double budget = 60.0;            ///< CPU seconds in all, up to half of it for the reference
   double cap = 6.0;                ///< CPU seconds of one run
   double target = 1e-3;            ///< position error the reader is after, relative to the scene's length
+  std::optional<double> rate;      ///< evaluations that count as a second, in place of CPU time
 };
 
 /// How an error falls from one rung of a ladder to the next, in the middle: d log error / d log tolerance, or

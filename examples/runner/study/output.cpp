@@ -110,6 +110,7 @@ OrderedJson to_json(const Results& results, const Study& study) {
   out["length"] = results.length;
   out["error"] = error_definition(results);
   out["target"] = results.plan.target;
+  if (results.plan.rate) out["evaluations_per_second"] = *results.plan.rate;
   out["reference"] = results.reference ? to_json(*results.reference) : OrderedJson();
   out["runs"] = OrderedJson::array();
   for (const Trial& trial : results.trials) out["runs"].push_back(to_json(trial, results));
@@ -130,8 +131,8 @@ std::string to_table(const Results& results, const Study& study) {
       shortest(study.file().duration) + " time units\nerror: " + error_definition(results) + "\nreference " +
       (results.reference ? results.reference->statement : "missing: no run finished in its time") + "\n\n";
   char text[256];
-  std::snprintf(text, sizeof text, "%-26s %9s %9s %10s %11s %9s\n", "run", "error", "angle", "CPU",
-                "evaluations", "energy");
+  std::snprintf(text, sizeof text, "%-26s %9s %9s %10s %11s %9s\n", "run", "error", "angle",
+                results.plan.rate ? "counted" : "CPU", "evaluations", "energy");
   out += text;
   for (const Trial& trial : results.trials)
     out += line_of(trial, &trial == &results.trials.front() ? nullptr : &trial - 1, results);

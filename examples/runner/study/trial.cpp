@@ -163,15 +163,21 @@ Trial Study::run(const Setting& setting, double cap, bool patient) const {
     simulation.add(tracker, Simulation::When::output);
     bool cancelled = false;
     Pacer pacer;
+    double steps = 0.0;
+    const auto spent = [&] {
+      return rate_ ? steps * info(setting.method).stages / *rate_ : cpu_seconds() - begin - tracker.seconds();
+    };
     simulation.on_progress([&](double time) {
-      if (!pacer.due()) return true;
+      ++steps;
+      if (!rate_ && !pacer.due()) return true;
       cancelled = progress_ && !progress_(time / file_.duration);
-      return !cancelled && cpu_seconds() - begin - tracker.seconds() < cap;
+      return !cancelled && spent() < cap;
     });
     trial.report = simulation.run(file_.duration, file_.outputs);
     if (cancelled) throw Cancelled();
     if (trial.report.stop == Stop::finished) tracker.note();
-    trial.cpu = cpu_seconds() - begin - tracker.seconds();
+    trial.cpu = rate_ ? static_cast<double>(trial.report.evaluations) / *rate_ : spent();
+    spent_ += trial.cpu;
     trial.track = tracker.take();
     settle(trial, file_.duration);
   } catch (const InvalidInput& error) {

@@ -49,7 +49,7 @@ struct Trial {
   Setting setting;
   std::string reason;
   Report report;
-  double cpu = 0.0;          ///< [s], of the whole run: extrapolated when capped
+  double cpu = 0.0;          ///< [s], of the whole run: extrapolated when capped; see Study for the clock
   double evaluations = 0.0;  ///< the same
   Track track;
   std::optional<Distance> error;  ///< against the reference
@@ -60,15 +60,22 @@ const char* to_string(Trial::Outcome outcome);
 /// Runs a scene again and again.
 class Study {
  public:
-  /// All kept by reference.
-  Study(const scene::SceneFile& file, const System& system) : file_(file), system_(system) {}
+  /// \param file, system  kept by reference
+  /// \param rate  evaluations that count as a second: no clock is asked then, and all is the same on every
+  ///              machine
+  Study(const scene::SceneFile& file, const System& system, std::optional<double> rate = {})
+      : file_(file), system_(system), rate_(rate) {}
+
+  std::optional<double> rate() const { return rate_; }
+  /// Seconds that its runs took so far, of CPU time or by the rate.
+  double spent() const { return spent_; }
 
   /// Called while a run goes on, with the part of it that is done; false ends the study by throwing
   /// Cancelled.
   void on_progress(std::function<bool(double part)> progress) { progress_ = std::move(progress); }
   struct Cancelled {};
 
-  /// \param cap  CPU seconds. \param patient  lifts the scene's limit on work, so that only the cap counts;
+  /// \param cap  seconds, of CPU time or by the rate. \param patient  lifts the scene's limit on work, so that only the cap counts;
   /// and that on lost energy for backward Euler
   Trial run(const Setting& setting, double cap, bool patient = false) const;
 
@@ -81,6 +88,8 @@ class Study {
  private:
   const scene::SceneFile& file_;
   const System& system_;
+  std::optional<double> rate_;
+  mutable double spent_ = 0.0;
   std::function<bool(double)> progress_;
 };
 
