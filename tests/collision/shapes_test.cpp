@@ -159,6 +159,13 @@ TEST_P(Pairs, HaveDistancesWithinTheirBoundsWhenNearlyTouching) {
   }
 }
 
+TEST(Shapes, ZeroHasNoSign) {
+  EXPECT_EQ(relation(point({0.0, 1, -0.0}), point({-0.0, 1, 0.0})), collision::kTouching);
+  const Segment s{Vec3(-0.0, 0, 0), Vec3(1, 0, 0)};
+  EXPECT_EQ(relation(segment(s), segment({Vec3(0.0, 0, 0), Vec3(-1, 0, 0)})), collision::kTouching);
+  EXPECT_EQ(relation(ball({0, 0, 0}, -0.0), point({0, 0, 0})), collision::kTouching);
+}
+
 std::vector<Kinds> all_pairs() {
   std::vector<Kinds> out;
   for (const Kind a : kKinds)

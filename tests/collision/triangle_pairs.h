@@ -40,14 +40,18 @@ inline TrianglePair shifted_grid_pair(Random& random) {
   return p;
 }
 
-/// In a plane to the last bit: level, upright or slanted. Every other pair has a corner on an edge, rounded.
+/// In a plane to the last bit: level, upright or slanted. Half of those in planes of the axes are of many sizes and
+/// have a corner on an edge, rounded, so that differences of coordinates are rounded too.
 inline TrianglePair coplanar_pair(Random& random) {
   TrianglePair p;
   const int plane = random.integer(4);
   const bool near = random.integer(2) == 0;
   for (std::size_t i = 0; i < 6; ++i) {
     double x = 0x1p-20 * random.integer(1 << 20), y = 0x1p-20 * random.integer(1 << 20);
-    if (plane < 3 && near) x = random.uniform(), y = random.uniform();
+    if (plane < 3 && near) {
+      x = std::ldexp(random.uniform(), -random.integer(12));
+      y = std::ldexp(random.uniform(), -random.integer(12));
+    }
     p[i] = plane == 0   ? Vec3(x, y, 0.25)
            : plane == 1 ? Vec3(0.5, x, y)
            : plane == 2 ? Vec3(y, -1, x)
