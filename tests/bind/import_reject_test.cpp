@@ -74,7 +74,7 @@ TEST(RejectOff, Vertices) {
       {with(sheet, "1 1 0", "1 1 inf"), "5", "vertex 2: coordinate 'inf' is not finite"},
       {with(sheet, "1 1 0", "-infinity 1 0"), "5", "vertex 2: coordinate '-infinity' is not finite"},
       {with(sheet, "1 1 0", "1 1e400 0"), "5", "vertex 2: '1e400' is not a number of double precision"},
-      {with(sheet, "1 1 0", "1 1e-400 0"), "5", "vertex 2: '1e-400'"},
+
       {with(sheet, "1 1 0", "1 1,5 0"), "5", "vertex 2: '1,5' is not a number"},
       {with(sheet, "1 1 0", "1 one 0"), "5", "vertex 2: 'one' is not a number"},
       {with(sheet, "1 1 0", "1 0x1p3 0"), "5", "vertex 2: '0x1p3' is not a number"},
@@ -204,7 +204,6 @@ TEST(RejectPly, HeadersThatDoNotMakeAMesh) {
       {with(ply, "vertex_indices", "indices"), "9", "faces without corners"},
       {with(ply, "list uchar int vertex_indices", "int vertex_indices"), "9", "faces without corners"},
       {with(ply, "end_header", "property list uchar int vertex_index\nend_header"), "10", "both"},
-      {with(ply, "face", "tristrips"), "9", "triangle strips"},
   };
   for (const Bad& bad : table) expect_refused(bad, parse_ply);
 }

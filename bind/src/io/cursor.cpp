@@ -8,6 +8,29 @@
 #include <charconv>
 
 namespace tendril::bind {
+namespace {
+
+/// Whether a number out of the range of double is below it: its first digit that is not 0 stands at a
+/// negative power of ten. An exponent of more digits than a long holds decides by its sign.
+bool underflows(std::string_view token) {
+  const std::size_t e = token.find_first_of("eE");
+  const std::string_view digits = token.substr(0, e);
+  const std::size_t first = digits.find_first_of("123456789");
+  if (first == digits.npos) return true;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  long exponent = 0;
+  if (e != token.npos) {
+    std::string_view power = token.substr(e + 1);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    const auto code = std::from_chars(power.data(), power.data() + power.size(), exponent).ec;
+    if (code != std::errc()) return power.starts_with('-');
+  }
+  const auto place = static_cast<long>(point) - static_cast<long>(first);
+  return exponent < -place;
+}
+
+}  // namespace
+
 std::string quoted(std::string_view bytes) {
   constexpr std::size_t longest = 40;
   std::string text = "'";
@@ -57,6 +80,10 @@ bool parse_number(std::string_view token, double& value) {
   }
   const char* const end = token.data() + token.size();
   const auto [stop, code] = std::from_chars(token.data(), end, value);
+  if (code == std::errc::result_out_of_range && stop == end && underflows(token)) {
+    value = token.starts_with('-') ? -0.0 : 0.0;
+    return true;
+  }
   return code == std::errc() && stop == end;
 }
 

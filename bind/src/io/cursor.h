@@ -47,6 +47,8 @@ class TextCursor : public ItemName {
   std::string_view token(std::string_view expected);
   /// Takes the next token, which must be a number. May be infinite or NaN if it is spelled so.
   double number();
+  /// The same; false when it is no number.
+  bool take_number(double& value);
   /// The next token of this line, or empty when the line has none left.
   std::string_view token_in_line();
   /// True when nothing but blanks and comments is left in this line.
@@ -66,6 +68,8 @@ class TextCursor : public ItemName {
   std::string_view last() const { return last_; }
   bool last_has_fraction() const { return last_.find_first_of(".eE") != std::string_view::npos; }
 
+  /// "name:line: item: ", to begin a note with.
+  std::string place() const { return name_ + ":" + std::to_string(last_line_) + ": " + prefix(); }
   [[noreturn]] void fail(const std::string& reason, const std::string& expected) const;
 
  private:
@@ -86,7 +90,8 @@ class TextCursor : public ItemName {
   void skip_to_token();
   void take_line_end();
   std::string_view take_token();
-  bool in_token(Kind kind) const { return kind == word || (kind == hash && !comments_); }
+  /// A '#' begins a comment only where a token could begin: "-1.#IND" is one word.
+  static bool in_token(Kind kind) { return kind == word || kind == hash; }
   bool take_short_number(double& value);
 
   std::string_view bytes_, last_;
@@ -95,8 +100,9 @@ class TextCursor : public ItemName {
   std::size_t next_ = 0, line_ = 1, last_line_ = 1;
 };
 
-/// A finite or infinite double from a whole token, independent of the locale; a plus sign is allowed.
-/// False when the token is no number or exceeds the range of double.
+/// A finite or infinite double from a whole token, independent of the locale; a plus sign is allowed, and
+/// what is nearer to 0 than any double is 0. False when the token is no number or exceeds the range of
+/// double.
 bool parse_number(std::string_view token, double& value);
 
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
@@ -120,6 +126,8 @@ class ByteCursor : public ItemName {
   bool done() { return next_ == bytes_.size(); }
   std::string found() const;
 
+  /// "name:byte N: item: ", to begin a note with.
+  std::string place() const { return name_ + ":byte " + std::to_string(last_begin_) + ": " + prefix(); }
   [[noreturn]] void fail(const std::string& reason, const std::string& expected) const;
   /// The same, at the cursor instead of the last value.
   [[noreturn]] void fail_here(const std::string& reason, const std::string& expected) const;
@@ -176,12 +184,14 @@ inline std::string_view TextCursor::token(std::string_view expected) {
   return take_token();
 }
 
+inline bool TextCursor::take_number(double& value) {
+  skip_to_token();
+  return (rounds_to_nearest_ && take_short_number(value)) || parse_number(token("a number"), value);
+}
+
 inline double TextCursor::number() {
   double value = 0.0;
-  skip_to_token();
-  if (rounds_to_nearest_ && take_short_number(value)) return value;
-  if (!parse_number(token("a number"), value))
-    fail(found() + " is not a number of double precision", "a number");
+  if (!take_number(value)) fail(found() + " is not a number of double precision", "a number");
   return value;
 }
 

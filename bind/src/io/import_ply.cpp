@@ -1,56 +1,12 @@
 #include <tendril/bind/import.h>
 
-#include "cursor.h"
+#include "color_list.h"
 #include "import_values.h"
 #include "ply_header.h"
+#include "ply_values.h"
 
 namespace tendril::bind {
 namespace {
-
-/// TextCursor with the interface of ByteCursor, so that one body reader serves both.
-class TextValues {
- public:
-  explicit TextValues(TextCursor in) : in_(std::move(in)) {}
-
-  void at(std::string_view kind, std::size_t id) { in_.at(kind, id); }
-  void at(std::string_view kind) { in_.at(kind); }
-  double number(Scalar) { return in_.number(); }
-  void skip(std::uint64_t count, std::size_t) {
-    for (std::uint64_t k = 0; k < count; ++k) in_.token("a value");
-  }
-  void require(std::uint64_t, std::size_t) const {}
-  void end_record() {
-    if (in_.line_done()) return;
-    in_.token_in_line();
-    in_.fail("the value " + in_.found() + " is one too many in its line",
-             "as many values as the header declares");
-  }
-  void end_file() {
-    if (in_.done()) return;
-    in_.token("");
-    in_.fail(in_.found() + " is left over", "the end of the file");
-  }
-  /// Fewest bytes a value can take: a digit and a blank.
-  static std::size_t least(Scalar) { return 2; }
-  std::size_t remaining() const { return in_.remaining(); }
-  std::string found() const { return in_.found(); }
-  [[noreturn]] void fail(const std::string& reason, const std::string& expected) const {
-    in_.fail(reason, expected);
-  }
-
- private:
-  TextCursor in_;
-};
-
-class ByteValues : public ByteCursor {
- public:
-  using ByteCursor::ByteCursor;
-  void end_record() const {}
-  void end_file() {
-    if (!done()) fail_here(std::to_string(remaining()) + " bytes are left over", "the end of the file");
-  }
-  static std::size_t least(Scalar type) { return size_of(type); }
-};
 
 /// What the value of a property is used for.
 enum Slot : std::size_t { x, y, z, nx, ny, nz, red, green, blue, alpha, slot_count, indices, unused };
@@ -98,7 +54,13 @@ Plan make_plan(const PlyElement& element, bool face) {
 template <class Values>
 class BodyReader {
  public:
-  BodyReader(Values in, const PlyHeader& header) : in_(std::move(in)), header_(header) {
+  BodyReader(Values in, const PlyHeader& header, const Notes& notes)
+      : in_(std::move(in)),
+        header_(header),
+        notes_(notes),
+        normals_("normals", notes),
+        point_colors_("vertex colors", notes),
+        face_colors_("face colors", notes) {
     const PlyElement* const vertices = header.find("vertex");
     points_ = vertices == nullptr ? 0 : vertices->count;
   }
@@ -109,12 +71,17 @@ class BodyReader {
         read_vertices(element);
       } else if (element.name == "face") {
         read_faces(element);
+      } else if (element.name == "tristrips") {
+        read_strips(element);
       } else {
         skip_element(element);
       }
     }
     in_.at("after the last element");
-    in_.end_file();
+    in_.end_file(notes_);
+    if (normals_.dropped()) mesh_.point_normals.clear();
+    if (point_colors_.dropped()) mesh_.point_colors.clear();
+    if (face_colors_.dropped()) mesh_.face_colors.clear();
     return std::move(mesh_);
   }
 
@@ -153,13 +120,28 @@ class BodyReader {
     return value;
   }
 
-  double take_color(const PlyProperty& property) {
-    const double value = take(property);
-    const bool fraction = is_floating(property.type);
-    if (!(value >= 0 && value <= (fraction ? 1 : 255))) {
-      in_.fail("color " + in_.found(), fraction ? "0..1" : "0..255");
+  /// A normal's component or a color's, which refuse no mesh.
+  double take_decoration(const PlyProperty& property, Slot slot, Decoration& decoration) {
+    double value = 0;
+    if (!in_.take_number(property.type, value)) {
+      decoration.refuse(in_, in_.found() + " is not a number of double precision", "a number");
+    } else if (!std::isfinite(value)) {
+      decoration.refuse(in_, "value " + in_.found() + " is not finite", "a finite number");
+    } else if (!is_floating(property.type) && !is_whole(value)) {
+      decoration.refuse(in_, in_.found() + " for an integer property", "a whole number");
+    } else {
+      return slot >= red ? color_value(property, value, decoration) : value;
     }
-    return fraction ? 255 * value : value;
+    return 0;
+  }
+
+  /// In 0..255. What lies a rounding outside is taken to the end of the range.
+  double color_value(const PlyProperty& property, double value, Decoration& decoration) {
+    const bool fraction = is_floating(property.type);
+    const double top = fraction ? 1 : 255;
+    if (!(value >= -kColorSlack * top && value <= (1 + kColorSlack) * top))
+      decoration.refuse(in_, "color " + in_.found(), fraction ? "0..1" : "0..255");
+    return 255 / top * std::clamp(value, 0.0, top);
   }
 
   void take_face(const PlyProperty& list) {
@@ -174,7 +156,7 @@ class BodyReader {
       while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(list.type), points_);
   }
 
-  void read_record(const PlyElement& element, const Plan& plan, Record& record) {
+  void read_record(const PlyElement& element, const Plan& plan, Decoration& colors, Record& record) {
     for (std::size_t p = 0; p < plan.slots.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       const Slot slot = plan.slots[p];
@@ -182,11 +164,26 @@ class BodyReader {
         skip_property(property);
       } else if (slot == indices) {
         take_face(property);
+      } else if (slot >= nx) {
+        record[slot] = take_decoration(property, slot, slot >= red ? colors : normals_);
       } else {
-        record[slot] = slot >= red ? take_color(property) : take(property);
+        record[slot] = take(property);
       }
     }
-    in_.end_record();
+    if (!in_.end_record()) pass_surplus(colors, &element == header_.find("vertex"));
+  }
+
+  /// More values in a line than the header declares: what follows the coordinates or corners is not what it
+  /// says, so none of that is kept.
+  void pass_surplus(Decoration& colors, bool vertex) {
+    const std::string reason = "the value " + in_.found() + " is one too many in its line";
+    const char* const expected = "as many values as the header declares";
+    if (!notes_.tolerant()) in_.fail(reason, expected);
+    if (!surplus_) notes_.add(in_.place() + reason + ": no colors or normals of such lines are kept");
+    surplus_ = true;
+    colors.drop();
+    if (vertex) normals_.drop();
+    in_.pass_line();
   }
 
   static Color color_of(const Record& record) {
@@ -203,7 +200,7 @@ class BodyReader {
     record[alpha] = 255;
     for (std::size_t v = 0; v < element.count; ++v) {
       in_.at("vertex", v);
-      read_record(element, plan, record);
+      read_record(element, plan, point_colors_, record);
       mesh_.points.emplace_back(record[x], record[y], record[z]);
       if (plan.normals()) mesh_.point_normals.emplace_back(record[nx], record[ny], record[nz]);
       if (plan.colors()) mesh_.point_colors.push_back(color_of(record));
@@ -221,7 +218,7 @@ class BodyReader {
     record[alpha] = 255;
     for (std::size_t f = 0; f < element.count; ++f) {
       in_.at("face", f);
-      read_record(element, plan, record);
+      read_record(element, plan, face_colors_, record);
       if (plan.colors()) mesh_.face_colors.push_back(color_of(record));
     }
   }
@@ -231,12 +228,51 @@ class BodyReader {
     for (std::size_t i = 0; i < element.count; ++i) {
       in_.at(element.name, i);
       for (const PlyProperty& property : element.properties) skip_property(property);
-      in_.end_record();
+      if (!in_.end_record()) pass_surplus(face_colors_, false);
     }
+  }
+
+  /// Each list is a row of strips, one from each -1 to the next.
+  void read_strips(const PlyElement& element) {
+    for (std::size_t i = 0; i < element.count; ++i) {
+      in_.at("tristrips", i);
+      for (const PlyProperty& property : element.properties)
+        slot_of(property, true) == indices ? take_strips(property) : skip_property(property);
+      if (!in_.end_record()) pass_surplus(face_colors_, false);
+    }
+  }
+
+  /// Every corner after a strip's second makes a triangle with the two before it, turned round each second
+  /// time. Those that name a point twice only lead on to the next, and are no faces.
+  void take_strips(const PlyProperty& list) {
+    std::array<std::uint32_t, 2> before{};
+    std::size_t length = 0;
+    for (std::uint64_t left = list_length(list); left > 0; --left) {
+      const double index = in_.number(list.type);
+      if (index == -1) {
+        length = 0;
+        continue;
+      }
+      if (!(index >= 0 && index < static_cast<double>(points_) && is_whole(index)))
+        refuse_corner(in_, points_);
+      const auto corner = static_cast<std::uint32_t>(index);
+      if (length >= 2 && before[0] != before[1] && before[0] != corner && before[1] != corner)
+        add_triangle(length % 2 == 0 ? before : std::array{before[1], before[0]}, corner);
+      before = {before[1], corner};
+      ++length;
+    }
+  }
+
+  void add_triangle(const std::array<std::uint32_t, 2>& edge, std::uint32_t corner) {
+    add_face(in_, mesh_, 3);
+    mesh_.corners.insert(mesh_.corners.end(), {edge[0], edge[1], corner});
   }
 
   Values in_;
   const PlyHeader& header_;
+  Notes notes_;
+  Decoration normals_, point_colors_, face_colors_;
+  bool surplus_ = false;
   std::size_t points_ = 0;
   PolygonMesh mesh_;
 };
@@ -251,38 +287,56 @@ void check_vertices(const TextCursor& in, const PlyElement* vertices) {
   }
 }
 
-void check_faces(const TextCursor& in, const PlyElement* faces) {
+void check_faces(const TextCursor& in, const PlyElement* faces, const char* what) {
   const auto is_index_list = [](const PlyProperty& p) { return slot_of(p, true) == indices; };
   const auto lists = std::count_if(faces->properties.begin(), faces->properties.end(), is_index_list);
-  if (lists > 1) in.fail("faces with both vertex_indices and vertex_index", "one of them");
-  if (lists == 0 && faces->count > 0) in.fail("faces without corners", "a list property vertex_indices");
+  if (lists > 1) in.fail(std::string(what) + " with both vertex_indices and vertex_index", "one of them");
+  if (lists == 0 && faces->count > 0)
+    in.fail(std::string(what) + " without corners", "a list property vertex_indices");
+}
+
+/// Colors of strips are not read: no one says which of their triangles they are of.
+void check_strips(const TextCursor& in, const PlyHeader& header) {
+  const PlyElement *const strips = header.find("tristrips"), *const faces = header.find("face");
+  if (strips == nullptr || strips->count == 0) return;
+  check_faces(in, strips, "triangle strips");
+  if (faces != nullptr && faces->count > 0) in.fail("both faces and triangle strips", "one of them");
 }
 
 /// What the whole header must fulfil. Errors are placed at its last line.
 void check_header(const TextCursor& in, const PlyHeader& header) {
   check_vertices(in, header.find("vertex"));
-  if (const PlyElement* faces = header.find("face")) check_faces(in, faces);
-  const PlyElement* const strips = header.find("tristrips");
-  if (strips != nullptr && strips->count > 0) in.fail("faces given as triangle strips", "an element 'face'");
+  if (const PlyElement* faces = header.find("face")) check_faces(in, faces, "faces");
+  check_strips(in, header);
 }
 
-/// Where the binary data begins. After a lone CR a LF is data, so the form of the first line's end decides.
-std::size_t data_begin(std::string_view bytes, const TextCursor& in) {
+/// Where the binary data begins. After a lone CR a LF is data, so the form of the first line's end decides;
+/// and so it does where LF CR ends the lines, as a text mode on the wrong machine makes them.
+std::size_t data_begin(std::string_view bytes, const TextCursor& in, const Notes& notes) {
   const std::size_t first = bytes.find_first_of("\r\n");
-  const bool lone_cr = first != bytes.npos && bytes.substr(first, 2) != "\r\n" && bytes[first] == '\r';
+  const std::string_view form = first == bytes.npos ? std::string_view() : bytes.substr(first, 2);
   const std::size_t end = in.offset();
-  return lone_cr && bytes.substr(end - 2, 2) == "\r\n" ? end - 1 : end;
+  if (form.starts_with('\r') && form != "\r\n" && bytes.substr(end - 2, 2) == "\r\n") return end - 1;
+  if (form != "\n\r" || !bytes.substr(end).starts_with('\r') || !notes.tolerant()) return end;
+  notes.add(in.place() + "lines that end with LF CR");
+  return end + 1;
 }
 
 }  // namespace
 
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name) {
+  return read_ply(bytes, name, nullptr);
+}
+
+PolygonMesh read_ply(std::string_view bytes, const std::string& name, std::vector<std::string>* list) {
+  const Notes notes(list);
   TextCursor in(bytes, name, false);
-  const PlyHeader header = read_ply_header(in);
+  const PlyHeader header = read_ply_header(in, notes);
   check_header(in, header);
-  if (header.format == PlyFormat::ascii) return BodyReader(TextValues(in), header).read();
+  if (header.format == PlyFormat::ascii) return BodyReader(TextValues(in), header, notes).read();
   const bool big_endian = header.format == PlyFormat::big_endian;
-  return BodyReader(ByteValues(bytes, data_begin(bytes, in), name, big_endian), header).read();
+  ByteValues values(bytes, data_begin(bytes, in, notes), name, big_endian);
+  return BodyReader(std::move(values), header, notes).read();
 }
 
 }  // namespace tendril::bind

@@ -72,7 +72,8 @@ inline std::uint8_t to_byte(double value) {
   return static_cast<std::uint8_t>(std::lround(value));
 }
 
-/// parse_off with notes, as read_mesh has them.
+/// parse_off and parse_ply with notes, as read_mesh has them.
 PolygonMesh read_off(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
+PolygonMesh read_ply(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
 
 }  // namespace tendril::bind

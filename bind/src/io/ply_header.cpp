@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, Scalar>, 18> scalar_names{{
 /// Reads the header line by line, and knows the names already taken.
 class HeaderReader {
  public:
-  explicit HeaderReader(TextCursor& in) : in_(in) {}
+  HeaderReader(TextCursor& in, const Notes& notes) : in_(in), notes_(notes) {}
 
   PlyHeader read() {
     in_.at("header");
@@ -43,6 +43,11 @@ class HeaderReader {
       const std::string_view keyword = in_.token("end_header");
       if (keyword == "end_header") break;
       if (keyword == "comment" || keyword == "obj_info") {
+        in_.rest_of_line();
+        continue;
+      }
+      if (notes_.tolerant() && !is_keyword(keyword)) {
+        notes_.add(in_.place() + "a line that begins with " + in_.found() + ", taken for a comment");
         in_.rest_of_line();
         continue;
       }
@@ -57,6 +62,12 @@ class HeaderReader {
   }
 
  private:
+  /// Numbers are no forgotten comments: there the header's end is missing.
+  static bool is_keyword(std::string_view word) {
+    const bool letter = (word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z');
+    return word == "format" || word == "element" || word == "property" || !letter;
+  }
+
   void read_line(std::string_view keyword) {
     if (keyword == "format") {
       read_format();
@@ -133,6 +144,7 @@ class HeaderReader {
   }
 
   TextCursor& in_;
+  Notes notes_;
   PlyHeader header_;
   bool has_format_ = false;
   std::set<std::string_view> elements_, properties_;
@@ -146,8 +158,8 @@ const PlyElement* PlyHeader::find(std::string_view name) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
-PlyHeader read_ply_header(TextCursor& in) {
-  return HeaderReader(in).read();
+PlyHeader read_ply_header(TextCursor& in, const Notes& notes) {
+  return HeaderReader(in, notes).read();
 }
 
 }  // namespace tendril::bind

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cursor.h"
+#include "notes.h"
 
 /// The header of a PLY file: which elements follow, how many of each, and what one of them is made of.
 namespace tendril::bind {
@@ -30,7 +31,8 @@ struct PlyHeader {
   const PlyElement* find(std::string_view name) const;
 };
 
-/// Reads up to and with the line "end_header". Names are views on the input.
-PlyHeader read_ply_header(TextCursor& in);
+/// Reads up to and with the line "end_header". Names are views on the input. Tolerant, lines that begin with
+/// an unknown word are passed over: comments whose first word was forgotten.
+PlyHeader read_ply_header(TextCursor& in, const Notes& notes);
 
 }  // namespace tendril::bind

@@ -17,8 +17,14 @@
 /// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
 /// that contradicts itself. A face that names a vertex twice is accepted.
 ///
-/// A text OFF that holds more faces than its header counts: with `notes` the surplus faces are kept, and a
-/// note gives their line and number; without, they are refused as data left over.
+/// With `notes`, geometry is read wherever it is beyond doubt, and each liberty is told with its place; without
+/// them nobody would be told, and all of it is refused:
+/// - colors and normals with a value that is none: dropped;
+/// - OFF: more faces than the header counts: kept; normals and colors under a plain OFF, and before each
+///   other under NCOFF, where all lines agree and the values tell which they are; a count glued to the
+///   keyword; a negative count of edges; binary little-endian, and binary without the counts of color values;
+/// - PLY: header lines that begin with an unknown word; values in a text line beyond the declared ones (and
+///   then the colors and normals there are dropped); bytes after the end; LF CR at the end of lines.
 ///
 /// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
 /// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
@@ -36,9 +42,9 @@ TENDRIL_BIND_API PolygonMesh read_mesh(const std::string& path, std::vector<std:
 /// - Prefixes N (normals), C (colors) and ST (texture, dropped); each vertex holds point, normal, color,
 ///   texture in this order. 4OFF and nOFF are refused: their points are not points of space.
 /// - Colors are 3 or 4 numbers; a color without alpha is opaque. They are 0..255 when all vertices' (or all
-///   faces') are whole numbers, else 0..1. A face color of one number is an index into a palette that is not
-///   in the file: it is read and dropped. Faces without a color among faces that have one get Geomview's
-///   default, grey 0.666.
+///   faces') are whole numbers or one exceeds 1, else 0..1; alpha has its own range. A face color of one
+///   number is an index into a palette that is not in the file: it is read and dropped. Faces without a color
+///   among faces that have one get Geomview's default, grey 0.666.
 /// - In text, what follows a vertex's color or a face's corners ends with the line; the rest is free-form.
 /// \param bytes  the whole file
 /// \param name   stands for the file in errors
@@ -51,7 +57,7 @@ TENDRIL_BIND_API PolygonMesh parse_off(std::string_view bytes, const std::string
 ///   alpha. Elements stand in any order; other elements and properties are skipped. Colors of floating type
 ///   are 0..1, of integer type 0..255.
 /// - In text, elements begin on a line of their own.
-/// - Triangle strips are refused: skipping them would lose the surface.
+/// - In place of faces, tristrips vertex_indices: strips of triangles, -1 between them.
 /// \param bytes  the whole file
 /// \param name   stands for the file in errors
 TENDRIL_BIND_API PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
