@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <span>
 
 #include "mesh/disjoint_sets.h"
 
@@ -22,11 +24,56 @@ struct Soup {
   std::vector<Triangle> faces;
 };
 
+/// Pairs of points that some face has an edge or a diagonal between.
+using Pairs = std::set<std::array<std::uint32_t, 2>>;
+
+std::array<std::uint32_t, 2> pair_of(std::uint32_t a, std::uint32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// Whether the diagonals from corner `apex` of a polygon are edges of nothing yet.
+bool may_fan_from(std::span<const std::uint32_t> face, std::size_t apex, const Pairs& taken) {
+  for (std::size_t k = 2; k + 1 < face.size(); ++k)
+    if (taken.contains(pair_of(face[apex], face[(apex + k) % face.size()]))) return false;
+  return true;
+}
+
+void fan_from(std::span<const std::uint32_t> face, std::size_t apex, Pairs& taken, Soup& out) {
+  const std::size_t n = face.size();
+  for (std::size_t k = 2; k < n; ++k) {
+    out.faces.push_back({face[apex], face[(apex + k - 1) % n], face[(apex + k) % n]});
+    if (k + 1 < n) taken.insert(pair_of(face[apex], face[(apex + k) % n]));
+  }
+}
+
+void fan_about_middle(std::span<const std::uint32_t> face, Soup& out) {
+  Vec3 middle = Vec3::Zero();
+  for (const std::uint32_t i : face) middle += out.points[i] / static_cast<double>(face.size());
+  const auto centre = static_cast<std::uint32_t>(out.points.size());
+  out.points.push_back(middle);
+  for (std::size_t k = 0; k < face.size(); ++k)
+    out.faces.push_back({face[k], face[(k + 1) % face.size()], centre});
+}
+
+/// Triangles in place of polygons, each a fan from its first corner whose diagonals are edges of nothing else
+/// (two quads about a point of valence 2 share three points: the same diagonal in both would be an edge of
+/// four triangles), or else about a point in its middle.
 Soup fans(const PolygonMesh& mesh) {
   Soup out{mesh.points, {}};
+  Pairs taken;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k) out.faces.push_back({face[0], face[k - 1], face[k]});
+    if (mesh.corners.size() == 3 * mesh.face_count()) break;  // triangles have no diagonals
+    for (std::size_t k = 0; k < face.size(); ++k) taken.insert(pair_of(face[k], face[(k + 1) % face.size()]));
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    std::size_t apex = 0;
+    while (apex < face.size() && !may_fan_from(face, apex, taken)) ++apex;
+    if (apex < face.size())
+      fan_from(face, apex, taken, out);
+    else
+      fan_about_middle(face, out);
   }
   return out;
 }
@@ -171,18 +218,105 @@ void require_fit(const PolygonMesh& mesh) {
         "when asked");
 }
 
+/// What a closed surface encloses; negative where its faces look inward. About its first point.
+double volume_of(const Soup& soup) {
+  double six = 0.0;
+  for (const auto& [a, b, c] : soup.faces) {
+    const Vec3& origin = soup.points[soup.faces[0][0]];
+    six += (soup.points[a] - origin).dot((soup.points[b] - origin).cross(soup.points[c] - origin));
+  }
+  return six / 6.0;
+}
+
+double area_of(const Soup& soup) {
+  double twice = 0.0;
+  for (const auto& [a, b, c] : soup.faces)
+    twice += (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]).norm();
+  return 0.5 * twice;
+}
+
+/// Turns a surface that is inside out. Refuses one that is flat: there is no middle to be found.
+/// \return  whether it was turned
+bool orient_outward(Soup& soup) {
+  constexpr double kFlat = 1e-6;  // of the volume over that of a cube of the same area
+  const double volume = volume_of(soup), area = area_of(soup);
+  if (!(std::abs(volume) > kFlat * area * std::sqrt(area)))
+    throw InvalidInput("mesh", "flat: a surface that encloses no volume", "a closed surface round a body");
+  if (volume > 0.0) return false;
+  for (Triangle& face : soup.faces) std::swap(face[1], face[2]);
+  return true;
+}
+
+/// Middles of edges, one for both triangles there.
+class Middles {
+ public:
+  explicit Middles(Soup& soup) : soup_(soup) {}
+  std::uint32_t at(std::uint32_t a, std::uint32_t b) {
+    const auto [entry, made] =
+        middles_.try_emplace(pair_of(a, b), static_cast<std::uint32_t>(soup_.points.size()));
+    if (made) soup_.points.push_back(0.5 * (soup_.points[a] + soup_.points[b]));
+    return entry->second;
+  }
+
+ private:
+  Soup& soup_;
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> middles_;
+};
+
+/// Splits a triangle at the middles of those of its edges that are longer than `most`.
+void split_long_edges(const Triangle& face, double most, Middles& middles, const Soup& soup,
+                      std::vector<Triangle>& to) {
+  const auto length = [&](std::size_t k) {
+    return (soup.points[face[(k + 1) % 3]] - soup.points[face[k]]).norm();
+  };
+  std::size_t longest = 0;
+  for (const std::size_t k : {1U, 2U})
+    if (length(k) > length(longest)) longest = k;
+  if (length(longest) <= most) return to.push_back(face);
+  // The longest edge is that from a to b; of the others, those that are long too.
+  const std::uint32_t a = face[longest], b = face[(longest + 1) % 3], c = face[(longest + 2) % 3];
+  const bool far_bc = length((longest + 1) % 3) > most, far_ca = length((longest + 2) % 3) > most;
+  const std::uint32_t ab = middles.at(a, b);
+  const auto half = [&](std::uint32_t p, std::uint32_t q, std::uint32_t apex, bool far) {
+    // The triangle p q apex, its edge q apex split where it is long.
+    if (!far) return to.push_back({p, q, apex});
+    const std::uint32_t middle = middles.at(q, apex);
+    to.insert(to.end(), {{p, q, middle}, {p, middle, apex}});
+  };
+  half(ab, b, c, far_bc);
+  if (!far_ca) return to.push_back({ab, c, a});
+  const std::uint32_t ca = middles.at(c, a);
+  to.insert(to.end(), {{ab, c, ca}, {ab, ca, a}});
+}
+
+/// Needles (a cylinder with points on its lids only) leave the contraction nothing to move along their way:
+/// edges much longer than the points asked for would stand apart are halved until none is left.
+void split_needles(Soup& soup, std::size_t points) {
+  constexpr double kApart = 4.0, kSlender = 8.0;
+  const double most =
+      kApart * std::sqrt(area_of(soup) / static_cast<double>(std::max<std::size_t>(points, 1)));
+  const auto is_needle = [&](const Triangle& face) {
+    const Vec3 x = soup.points[face[1]] - soup.points[face[0]],
+               y = soup.points[face[2]] - soup.points[face[0]];
+    const double longest = std::max({x.norm(), y.norm(), (y - x).norm()});
+    return longest > most && longest * longest > kSlender * x.cross(y).norm();
+  };
+  // Halved a hundred times, any edge is shorter than the spacing of its numbers.
+  for (int pass = 0; pass < 100 && std::any_of(soup.faces.begin(), soup.faces.end(), is_needle); ++pass) {
+    std::vector<Triangle> faces;
+    Middles middles(soup);
+    const std::vector<Triangle> before = std::move(soup.faces);
+    for (const Triangle& face : before) split_long_edges(face, most, middles, soup, faces);
+    soup.faces = std::move(faces);
+  }
+}
+
 /// Every triangle in four.
 void split_in_four(Soup& soup) {
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> middles;
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [entry, made] =
-        middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(soup.points.size()));
-    if (made) soup.points.push_back(0.5 * (soup.points[a] + soup.points[b]));
-    return entry->second;
-  };
+  Middles middles(soup);
   std::vector<Triangle> faces;
   for (const auto& [a, b, c] : soup.faces) {
-    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    const std::uint32_t ab = middles.at(a, b), bc = middles.at(b, c), ca = middles.at(c, a);
     faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
   }
   soup.faces = std::move(faces);
@@ -205,13 +339,14 @@ Prepared prepare(const PolygonMesh& mesh, const AxisOptions& options, AxisReport
     if (!(mesh.points[i].cwiseAbs().maxCoeff() <= kLargest))
       throw InvalidInput("points[" + std::to_string(i) + "]", "beyond 1e100", "smaller coordinates");
   Soup soup = fans(mesh);
+  // Before the parts are told apart: a point may be all that joins two.
+  if (options.largest_part || options.close) report.split_points = split_points(soup);
   if (options.largest_part) report.left_out_parts = keep_largest_part(soup);
   drop_isolated_points(soup);
-  if (options.close) {
-    report.split_points = split_points(soup);
-    report.closed_holes = close_holes(soup);
-  }
+  if (options.close) report.closed_holes = close_holes(soup);
   require_fit(to_mesh(soup));
+  report.turned = orient_outward(soup);
+  split_needles(soup, options.least_points);
   for (; soup.points.size() < options.least_points; ++report.splits) split_in_four(soup);
   const UnitScaling scaling = scaling_of(soup.points);
   for (Vec3& p : soup.points) p = (p - scaling.centre) / scaling.scale;

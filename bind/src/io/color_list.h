@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "import_values.h"
-#include "notes.h"
 
 namespace tendril::bind {
 

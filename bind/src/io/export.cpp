@@ -97,6 +97,13 @@ void end_line(std::string& out) {
 
 }  // namespace
 
+bool single_precision_serves(Points points) {
+  double largest = 0.0;
+  for (const Vec3& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  // Half a spacing of floats is at most 2^-24 of the number.
+  return largest * 0x1p-24 <= 1e-5 * bounding_diagonal(points) && largest < 3e38;
+}
+
 std::string ply_bytes(const PolygonMesh& mesh, const PlyOptions& options) {
   require_valid(mesh);
   if (options.float32) {

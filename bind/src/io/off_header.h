@@ -2,7 +2,6 @@
 
 #include "cursor.h"
 #include "import_values.h"
-#include "notes.h"
 
 /// What the two kinds of OFF share.
 namespace tendril::bind {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cursor.h"
-#include "notes.h"
+#include "import_values.h"
 
 /// The header of a PLY file: which elements follow, how many of each, and what one of them is made of.
 namespace tendril::bind {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cursor.h"
-#include "notes.h"
+#include "import_values.h"
 
 /// The two ways to take a PLY file's values, with one interface, so that one body reader serves both.
 namespace tendril::bind {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "closed_parts.h"
 #include "disjoint_sets.h"
 
 namespace tendril::bind {
@@ -219,6 +220,15 @@ void report_edges(const PolygonMesh& mesh, MeshReport& report) {
   report.boundary_loops = count_loops(uses, fans, mesh.corners.size());
 }
 
+std::size_t count_inside_out(const PolygonMesh& mesh) {
+  std::size_t count = 0;
+  for (const auto& part : parts_of(mesh)) {
+    const ClosedPart closed(mesh, part);
+    count += closed.is_closed() && closed.volume() < 0.0 && !nested(mesh, part);
+  }
+  return count;
+}
+
 void report_sizes(const PolygonMesh& mesh, MeshReport& report) {
   report.points = mesh.points.size();
   report.faces = mesh.face_count();
@@ -248,6 +258,7 @@ MeshReport inspect(const PolygonMesh& mesh) {
   report.duplicate_faces = duplicate_faces(mesh, sorted);
   report.components = count_components(mesh, report.isolated_points.size());
   report_edges(mesh, report);
+  report.inside_out = count_inside_out(mesh);
   report.euler_characteristic = static_cast<std::int64_t>(report.points - report.isolated_points.size()) -
                                 static_cast<std::int64_t>(report.edges) +
                                 static_cast<std::int64_t>(report.faces);

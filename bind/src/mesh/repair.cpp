@@ -1,8 +1,12 @@
+#include <tendril/base/error.h>
 #include <tendril/bind/repair.h>
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include "closed_parts.h"
+#include "merge.h"
 
 namespace tendril::bind {
 namespace {
@@ -23,10 +27,11 @@ bool has(const Ids& ascending, std::uint32_t id) {
 class Mender {
  public:
   explicit Mender(const PolygonMesh& mesh)
-      : out_{mesh, identity(mesh.points.size()), identity(mesh.face_count()), {}, {}, {}} {}
+      : out_{mesh, identity(mesh.points.size()), identity(mesh.face_count()), {}, {}, {}, {}} {}
 
-  void merge_points() {
-    for (const Duplicate& one : inspect(out_.mesh).duplicate_points) out_.point[one.id] = one.first;
+  /// \param to  of each point, an earlier one or itself
+  void merge_points(const Ids& to) {
+    out_.point = to;
     for (std::uint32_t& corner : out_.mesh.corners) corner = out_.point[corner];
     Ids shortened;
     keep_faces([&](std::uint32_t f, Ids& face) {
@@ -39,12 +44,13 @@ class Mender {
     for (const std::uint32_t f : shortened) shortened_.push_back(f);
   }
 
-  void drop_degenerate() { drop_faces(inspect(out_.mesh).degenerate_faces); }
+  /// \param spared  ids before of faces that stay
+  void drop_degenerate(const Ids& spared) { drop_faces(inspect(out_.mesh).degenerate_faces, spared); }
 
-  void drop_duplicates() {
+  void drop_duplicates(const Ids& spared) {
     Ids faces;
     for (const Duplicate& one : inspect(out_.mesh).duplicate_faces) faces.push_back(one.id);
-    drop_faces(faces);
+    drop_faces(faces, spared);
   }
 
   void orient();
@@ -94,13 +100,14 @@ class Mender {
       if (id != kDropped) id = now[id];
   }
 
-  void drop_faces(const Ids& ids) {
+  void drop_faces(const Ids& ids, const Ids& spared) {
     if (ids.empty()) return;
     std::uint32_t f = 0;
-    keep_faces([&](std::uint32_t, Ids&) { return !has(ids, f++); });
+    keep_faces([&](std::uint32_t before, Ids&) { return !has(ids, f++) || has(spared, before); });
   }
 
   std::vector<std::vector<Link>> links() const;
+  bool turns_better(const Ids& part, const std::vector<char>& over, std::size_t turned) const;
   void turn(const std::vector<char>& over);
 
   Repaired out_;
@@ -155,12 +162,23 @@ void Mender::orient() {
         turned += wanted != 0;
         part.push_back(link.face);
       }
-    if (2 * turned > part.size())
+    if (turns_better(part, over, turned))
       for (const std::uint32_t f : part) over[f] = !over[f];
   }
   std::sort(out_.one_sided.begin(), out_.one_sided.end());
   out_.one_sided.erase(std::unique(out_.one_sided.begin(), out_.one_sided.end()), out_.one_sided.end());
   turn(over);
+}
+
+/// Whether the faces of a part are to be turned the other way round than `over` says: where it is closed, so
+/// that it encloses a positive volume; else so that fewer are turned.
+bool Mender::turns_better(const Ids& part, const std::vector<char>& over, std::size_t turned) const {
+  std::vector<ClosedPart::Face> faces;
+  for (const std::uint32_t f : part) faces.push_back({f, over[f] != 0});
+  const ClosedPart closed(out_.mesh, faces);
+  if (closed.is_closed() && turned == 0 && closed.volume() > 0.0) return false;
+  if (closed.is_closed() && !nested(out_.mesh, faces)) return closed.volume() < 0.0;
+  return 2 * turned > part.size();
 }
 
 void Mender::turn(const std::vector<char>& over) {
@@ -207,15 +225,104 @@ bool Repaired::changed() const {
          !turned.empty();
 }
 
+namespace {
+
+/// What is still to be tried.
+struct Plan {
+  RepairOptions options;
+  Ids merge;   ///< of each point, what it becomes
+  Ids spared;  ///< faces that stay though they are degenerate or doubled; ascending
+};
+
+Repaired mend(const PolygonMesh& mesh, const Plan& plan) {
+  Mender mender(mesh);
+  mender.merge_points(plan.merge);
+  if (plan.options.drop_degenerate) mender.drop_degenerate(plan.spared);
+  if (plan.options.drop_duplicates) mender.drop_duplicates(plan.spared);
+  if (plan.options.orient) mender.orient();
+  if (plan.options.drop_isolated) mender.drop_isolated();
+  return mender.finish();
+}
+
+/// Whether some count of inspect is larger than it was. What was not to be mended does not count: merging and
+/// dropping may bring it about.
+bool is_worse(const MeshReport& now, const MeshReport& before, const RepairOptions& asked) {
+  return now.duplicate_points.size() > before.duplicate_points.size() ||
+         (asked.drop_isolated && now.isolated_points.size() > before.isolated_points.size()) ||
+         (asked.drop_degenerate && now.degenerate_faces.size() > before.degenerate_faces.size()) ||
+         (asked.drop_duplicates && now.duplicate_faces.size() > before.duplicate_faces.size()) ||
+         now.non_manifold_edges.size() > before.non_manifold_edges.size() ||
+         now.non_manifold_points.size() > before.non_manifold_points.size() ||
+         (asked.orient && now.inconsistent_edges.size() > before.inconsistent_edges.size()) ||
+         now.boundary_loops > before.boundary_loops;
+}
+
+/// Undoes the merging of the points at which something is wrong now. \return  whether there were any
+bool unmerge(const Repaired& now, const MeshReport& report, Plan& plan) {
+  std::vector<char> wrong(now.mesh.points.size(), 0);
+  for (const std::uint32_t v : report.non_manifold_points) wrong[v] = 1;
+  for (const auto* edges : {&report.non_manifold_edges, &report.inconsistent_edges})
+    for (const Edge& edge : *edges) wrong[edge[0]] = wrong[edge[1]] = 1;
+  for (const std::uint32_t f : report.degenerate_faces)
+    for (const std::uint32_t v : now.mesh.face(f)) wrong[v] = 1;
+  bool any = false;
+  for (std::uint32_t i = 0; i < plan.merge.size(); ++i) {
+    const std::uint32_t at = now.point[plan.merge[i]];
+    if (plan.merge[i] == i || at == kDropped || !wrong[at]) continue;
+    plan.merge[i] = i;
+    any = true;
+  }
+  return any;
+}
+
+/// Spares the dropped faces along whose edges the surface is open now. \return  whether there were any
+bool spare(const PolygonMesh& before, const Repaired& now, Plan& plan) {
+  const std::vector<Edge> open = open_edges(now.mesh);
+  const std::size_t count = plan.spared.size();
+  for (std::uint32_t f = 0; f < before.face_count(); ++f) {
+    if (now.face[f] != kDropped) continue;
+    const auto face = before.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::uint32_t a = now.point[face[k]], b = now.point[face[(k + 1) % face.size()]];
+      if (std::binary_search(open.begin(), open.end(), Edge{std::min(a, b), std::max(a, b)})) {
+        plan.spared.push_back(f);
+        break;
+      }
+    }
+  }
+  std::sort(plan.spared.begin(), plan.spared.end());
+  plan.spared.erase(std::unique(plan.spared.begin(), plan.spared.end()), plan.spared.end());
+  return plan.spared.size() > count;
+}
+
+/// Leaves out the next step that can be left out. \return  false when none is left
+bool give_up_a_step(Plan& plan) {
+  for (bool* step : {&plan.options.drop_degenerate, &plan.options.drop_duplicates, &plan.options.orient,
+                     &plan.options.drop_isolated}) {
+    if (!*step) continue;
+    *step = false;
+    return true;
+  }
+  const Ids apart = identity(plan.merge.size());
+  return std::exchange(plan.merge, apart) != apart;
+}
+
+}  // namespace
+
 Repaired repair(const PolygonMesh& mesh, const RepairOptions& options) {
   require_valid(mesh);
-  Mender mender(mesh);
-  if (options.merge_points) mender.merge_points();
-  if (options.drop_degenerate) mender.drop_degenerate();
-  if (options.drop_duplicates) mender.drop_duplicates();
-  if (options.orient) mender.orient();
-  if (options.drop_isolated) mender.drop_isolated();
-  return mender.finish();
+  if (!(options.merge_distance >= 0.0 && options.merge_distance <= 0.01))
+    throw InvalidInput("merge_distance", std::to_string(options.merge_distance),
+                       "a share of the bounding box's diagonal in [0, 0.01]");
+  const MeshReport before = inspect(mesh);
+  Plan plan{options, identity(mesh.points.size()), {}};
+  if (options.merge_points) plan.merge = merge_targets(mesh, options.merge_distance);
+  for (;;) {
+    Repaired out = mend(mesh, plan);
+    out.left = inspect(out.mesh);
+    if (!is_worse(out.left, before, options)) return out;
+    if (!unmerge(out, out.left, plan) && !spare(mesh, out, plan) && !give_up_a_step(plan)) return out;
+  }
 }
 
 }  // namespace tendril::bind

@@ -61,6 +61,7 @@ OrderedJson to_json(const axis::AxisReport& report) {
   return {{"closed_holes", report.closed_holes},
           {"split_points", report.split_points},
           {"left_out_parts", report.left_out_parts},
+          {"turned", report.turned},
           {"splits", report.splits},
           {"contractions", report.contractions},
           {"skeleton", {{"ends", report.ends}, {"junctions", report.junctions}, {"loops", report.loops}}},
@@ -93,6 +94,7 @@ void tell(const Options& options, const axis::AxisTree& tree, double seconds) {
   if (report.closed_holes + report.split_points + report.left_out_parts > 0)
     std::printf("  in a copy: %zu hole(s) closed, %zu point(s) split, %zu part(s) left out\n",
                 report.closed_holes, report.split_points, report.left_out_parts);
+  if (report.turned) std::printf("  the mesh is inside out: a copy was turned\n");
   for (std::size_t k = 0; k < tree.curves.size(); ++k) {
     const axis::AxisCurve& curve = tree.curves[k];
     std::printf("  %-10s %4zu nodes, length %-8.4g strays %.2f radii, %zu outside", name_of(k).c_str(),

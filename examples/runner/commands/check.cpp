@@ -2,6 +2,7 @@
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
+#include <tendril/bind/import.h>
 #include <tendril/bind/inspect.h>
 
 #include <iostream>
@@ -11,7 +12,7 @@ namespace {
 
 struct Options {
   std::string mesh;
-  bool json = false;
+  bool json = false, strict = false;
 };
 
 OrderedJson duplicates(const std::vector<bind::Duplicate>& list) {
@@ -44,7 +45,8 @@ OrderedJson to_json(const bind::PolygonMesh& mesh, const bind::MeshReport& repor
           {"degenerate_faces", report.degenerate_faces},
           {"non_manifold_edges", report.non_manifold_edges},
           {"non_manifold_points", report.non_manifold_points},
-          {"inconsistent_edges", report.inconsistent_edges}};
+          {"inconsistent_edges", report.inconsistent_edges},
+          {"inside_out", report.inside_out}};
 }
 
 void print_text(const std::string& path, const bind::MeshReport& r) {
@@ -65,10 +67,11 @@ void print_text(const std::string& path, const bind::MeshReport& r) {
   count(r.non_manifold_edges.size(), "non-manifold edge(s)");
   count(r.non_manifold_points.size(), "non-manifold point(s)");
   count(r.inconsistent_edges.size(), "edge(s) used twice in the same direction");
+  count(r.inside_out, "closed part(s) inside out");
 }
 
 int check(const Options& options) {
-  const bind::PolygonMesh mesh = read_mesh(options.mesh);
+  const bind::PolygonMesh mesh = options.strict ? bind::read_mesh(options.mesh) : read_mesh(options.mesh);
   const bind::MeshReport report = bind::inspect(mesh);
   if (options.json) {
     print(to_json(mesh, report));
@@ -85,6 +88,7 @@ Command check_command(CLI::App& parent) {
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
   app->add_flag("--json", options->json, "print JSON, with the ids of all that is odd");
+  app->add_flag("--strict", options->strict, "refuse what is read with a note otherwise");
   return {app, [options] { return check(*options); }};
 }
 

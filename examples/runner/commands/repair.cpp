@@ -14,6 +14,7 @@ struct Options {
   std::string mesh, out;
   bool keep_points = false, keep_degenerate = false, keep_duplicates = false, keep_orientation = false,
        keep_isolated = false, json = false;
+  double merge_distance = 0.0;
 };
 
 std::vector<std::uint32_t> dropped(const std::vector<std::uint32_t>& now) {
@@ -35,6 +36,24 @@ OrderedJson merged(const std::vector<std::uint32_t>& now, std::size_t count) {
   return pairs;
 }
 
+/// What is still odd, by check's names; only what there is of it.
+OrderedJson left(const bind::MeshReport& report) {
+  OrderedJson out = OrderedJson::object();
+  const auto count = [&](const char* name, std::size_t n) {
+    if (n > 0) out[name] = n;
+  };
+  count("duplicate_points", report.duplicate_points.size());
+  count("isolated_points", report.isolated_points.size());
+  count("degenerate_faces", report.degenerate_faces.size());
+  count("duplicate_faces", report.duplicate_faces.size());
+  count("non_manifold_edges", report.non_manifold_edges.size());
+  count("non_manifold_points", report.non_manifold_points.size());
+  count("inconsistent_edges", report.inconsistent_edges.size());
+  count("inside_out", report.inside_out);
+  count("holes", report.boundary_loops);
+  return out;
+}
+
 OrderedJson to_json(const bind::Repaired& repaired) {
   OrderedJson edges = OrderedJson::array();
   for (const bind::Edge& edge : repaired.one_sided) edges.push_back(edge);
@@ -46,7 +65,8 @@ OrderedJson to_json(const bind::Repaired& repaired) {
           {"dropped_faces", dropped(repaired.face)},
           {"shortened_faces", repaired.shortened},
           {"turned_faces", repaired.turned},
-          {"one_sided_edges", edges}};
+          {"one_sided_edges", edges},
+          {"left", left(repaired.left)}};
 }
 
 int run(const Options& options) {
@@ -55,7 +75,8 @@ int run(const Options& options) {
                                                       .drop_degenerate = !options.keep_degenerate,
                                                       .drop_duplicates = !options.keep_duplicates,
                                                       .orient = !options.keep_orientation,
-                                                      .drop_isolated = !options.keep_isolated});
+                                                      .drop_isolated = !options.keep_isolated,
+                                                      .merge_distance = options.merge_distance});
   bind::write_mesh(options.out, repaired.mesh);
   const OrderedJson what = to_json(repaired);
   if (options.json) {
@@ -66,6 +87,8 @@ int run(const Options& options) {
   for (const char* list : {"merged_points", "dropped_points", "dropped_faces", "shortened_faces",
                            "turned_faces", "one_sided_edges"})
     if (!what[list].empty()) std::cout << "  " << what[list].size() << ' ' << list << '\n';
+  for (const auto& [name, count] : what["left"].items())
+    std::cout << "  left: " << count << ' ' << name << '\n';
   return kDone;
 }
 
@@ -78,6 +101,8 @@ Command repair_command(CLI::App& parent) {
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
   app->add_option("--out", options->out, "OFF or PLY file to write")->required();
   app->add_flag("--keep-points", options->keep_points, "merge no points of the same place");
+  app->add_option("--merge-distance", options->merge_distance,
+                  "merge points as near as this share of the mesh's size, at most 0.01");
   app->add_flag("--keep-degenerate", options->keep_degenerate, "keep faces without area");
   app->add_flag("--keep-duplicates", options->keep_duplicates, "keep faces of the same points");
   app->add_flag("--keep-orientation", options->keep_orientation, "turn no face over");

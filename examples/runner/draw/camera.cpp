@@ -1,5 +1,7 @@
 #include "draw/camera.h"
 
+#include <tendril/base/error.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,6 +55,10 @@ Camera CameraFit::camera() const {
     return {-5.0 * forward_, right_, up_, forward_, tan_x_, tan_y_, ground_up_, 0.0, Vec3::Zero(), 1.0};
   }
   const double diagonal = (high_ - low_).stableNorm();
+  // Beyond this the squares and differences that pictures are made of leave the finite numbers.
+  constexpr double kLargest = 1e100;
+  if (!(std::max({diagonal, low_.cwiseAbs().maxCoeff(), high_.cwiseAbs().maxCoeff()}) <= kLargest))
+    throw InvalidInput("picture", "points beyond 1e100", "smaller coordinates");
   const double size = diagonal > 0.0 ? diagonal : 1.0;
   // The sides of the picture give x_e = tan_x (reach_right - reach_left) / 2 for the eye, and the distance.
   const double back = std::max({0.5 * (reach_[0] + reach_[1]), 0.5 * (reach_[2] + reach_[3])});

@@ -75,7 +75,8 @@ class Study {
   void on_progress(std::function<bool(double part)> progress) { progress_ = std::move(progress); }
   struct Cancelled {};
 
-  /// \param cap  seconds, of CPU time or by the rate. \param patient  lifts the scene's limit on work, so that only the cap counts;
+  /// \param cap  seconds, of CPU time or by the rate.
+  /// \param patient  lifts the scene's limit on work, so that only the cap counts;
   /// and that on lost energy for backward Euler
   Trial run(const Setting& setting, double cap, bool patient = false) const;
 

@@ -39,7 +39,8 @@ void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mes
   trajectory_.add(snapshot);
   if (mesh != nullptr && options_.frames) {
     const Phases::Timer timer(phases_, Phases::write);
-    write(frame_name(count_), bind::ply_bytes(mesh->mesh(), {.float32 = !options_.double_precision}));
+    const bool single = !options_.double_precision && bind::single_precision_serves(mesh->mesh().points);
+    write(frame_name(count_), bind::ply_bytes(mesh->mesh(), {.float32 = single}));
   }
   look(snapshot);
   if (std::binary_search(numbers_.begin(), numbers_.end(), count_)) panels_.push_back(snapshot);

@@ -10,7 +10,8 @@ struct AxisOptions {
   /// Work on a copy whose holes are closed, each by a fan about its middle, and whose non-manifold points are
   /// split. Otherwise a mesh with holes is refused.
   bool close = false;
-  /// Work on the part with the largest area alone. Otherwise a mesh of several parts is refused.
+  /// Work on the part with the largest area alone; parts that only points join are told apart. Otherwise a
+  /// mesh of several parts is refused.
   bool largest_part = false;
 
   /// An end branch of the skeleton is pruned when its tip is less far from where it branches off than this

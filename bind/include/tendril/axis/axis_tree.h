@@ -43,6 +43,7 @@ struct AxisReport {
   std::size_t closed_holes = 0;    ///< of the mesh, in the copy
   std::size_t split_points = 0;    ///< non-manifold ones
   std::size_t left_out_parts = 0;  ///< connected components other than the largest
+  bool turned = false;             ///< the mesh is inside out; the copy was turned
   std::size_t splits = 0;          ///< times that each triangle was split in four
   int contractions = 0;            ///< steps of the mean curvature flow
   std::size_t ends = 0;            ///< of the skeleton, before pruning

@@ -18,6 +18,10 @@ struct PlyOptions {
   bool float32 = false;
 };
 
+/// Whether single precision places points within 1e-5 of the diagonal of their bounding box: not where they
+/// lie far from the origin for their size, as map coordinates do. True for no points.
+TENDRIL_BIND_API bool single_precision_serves(Points points);
+
 /// Binary little-endian PLY: x y z [nx ny nz] [red green blue alpha] and lists vertex_indices [red green blue
 /// alpha].
 TENDRIL_BIND_API std::string ply_bytes(const PolygonMesh& mesh, const PlyOptions& options = {});

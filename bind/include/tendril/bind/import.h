@@ -17,8 +17,8 @@
 /// the number of vertices; a face of fewer than three corners; data that is missing or left over; a header
 /// that contradicts itself. A face that names a vertex twice is accepted.
 ///
-/// With `notes`, geometry is read wherever it is beyond doubt, and each liberty is told with its place; without
-/// them nobody would be told, and all of it is refused:
+/// With `notes`, geometry is read wherever it is beyond doubt, and each liberty is told with its place;
+/// without them nobody would be told, and all of it is refused:
 /// - colors and normals with a value that is none: dropped;
 /// - OFF: more faces than the header counts: kept; normals and colors under a plain OFF, and before each
 ///   other under NCOFF, where all lines agree and the values tell which they are; a count glued to the

@@ -41,6 +41,9 @@ struct MeshReport {
   std::vector<std::uint32_t>
       non_manifold_points;  ///< their faces, joined by edges used twice, are several fans
 
+  /// Closed parts (faces joined by edges of two) within no other whose faces look inward.
+  std::size_t inside_out = 0;
+
   std::size_t edges = 0;           ///< different ones
   std::size_t boundary_edges = 0;  ///< used once
   /// Closed curves of boundary edges. Where two holes touch in a point they count apart.

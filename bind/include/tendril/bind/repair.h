@@ -12,6 +12,9 @@ struct RepairOptions {
   bool drop_duplicates = true;  ///< faces of the same points as an earlier one
   bool orient = true;           ///< turns faces over so that neighbours across an edge of two faces agree
   bool drop_isolated = true;    ///< points in no face
+  /// Points as near as this to an earlier one become it too: a share of the bounding box's diagonal in
+  /// [0, 0.01].
+  double merge_distance = 0.0;
 };
 
 /// The id of what is no longer there.
@@ -26,15 +29,19 @@ struct TENDRIL_BIND_API Repaired {
   std::vector<std::uint32_t> turned;     ///< faces now that were turned over
   /// Edges of two faces whose faces could not be made to agree: the surface has one side only (Moebius).
   std::vector<Edge> one_sided;
+  MeshReport left;  ///< of the mended mesh
 
   bool changed() const;  ///< whether anything was mended
 };
 
 /// Mends a copy of the mesh. What is kept keeps its order, its coordinates to the last bit and its
 /// attributes; the normal of a point all of whose faces were turned is turned too. Of the two ways to orient
-/// a part, the one that turns fewer faces is taken, and on a tie the one that keeps its first face; parts
-/// meet in edges of two faces. Dropping a face without area may open a slit between its neighbours: inspect()
-/// says so afterwards.
+/// a part, a closed one that lies in no other gets the one that encloses a positive volume; others that which
+/// turns fewer faces, and on a tie keeps their first. Parts meet in edges of two faces.
+///
+/// No count of inspect() grows: points whose merging would make a non-manifold point or edge stay apart, and
+/// so do those on edges whose faces then could not agree; a face stays whose loss would open the surface.
+/// `left` says what is still odd.
 ///
 /// Deterministic; time O(n log n), memory O(n). Throws InvalidInput when require_valid(mesh) does.
 TENDRIL_BIND_API Repaired repair(const PolygonMesh& mesh, const RepairOptions& options = {});
