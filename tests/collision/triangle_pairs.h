@@ -40,7 +40,8 @@ inline TrianglePair shifted_grid_pair(Random& random) {
   return p;
 }
 
-/// In a plane to the last bit: level, upright or slanted. Half of those in planes of the axes are of many sizes and
+/// In a plane to the last bit: level, upright or slanted. Half of those in planes of the axes are of many
+/// sizes and
 /// have a corner on an edge, rounded, so that differences of coordinates are rounded too.
 inline TrianglePair coplanar_pair(Random& random) {
   TrianglePair p;
