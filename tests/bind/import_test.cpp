@@ -27,7 +27,7 @@ TEST(ParseOff, AcceptsEveryWayToWriteTheSame) {
       "OFF 4 4 0\n" + body,
       "OFF\r\n4 4 0\r\n" + off_lines("\r\n"),
       "OFF\r4 4 0\r" + off_lines("\r"),
-      "# first\n\n  # second\nOFF # third\n\n4 4 0 #fourth\n\n" + off_lines("   # fifth\n\n"),
+      "# first\n\n  # second\nOFF # third\n\n4 4 0#fourth\n\n" + off_lines("   # fifth\n\n"),
       "\xEF\xBB\xBFOFF\n4 4 0\n" + body,
       "OFF\n4 4 0\n" + body.substr(0, body.size() - 1),
       "OFF\n4 4 0\n" + body + "\n \t\n# the end",

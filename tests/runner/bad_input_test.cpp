@@ -218,6 +218,22 @@ TEST(BadInput, PointFilesAreRefusedWithTheLine) {
   }
 }
 
+TEST(BadInput, PointFilesMayHaveAMarkPlusSignsBlanksAnIdOrAHeader) {
+  for (const char* text : {"\xEF\xBB\xBF"
+                           "0,1,2\n",
+                           "+0,+1,+2\n", "0 1\t2\n", "7,0,1,2\n", "id,z,y,x\n7,2,1,0\n"}) {
+    SCOPED_TRACE(text);
+    const Folder folder;
+    folder.write("curve.json", kSpline);
+    folder.write("points.csv", "0,1,2\n");
+    const Outcome plain = folder.run("project curve.json points.csv --json");
+    folder.write("points.csv", text);
+    const Outcome same = folder.run("project curve.json points.csv --json");
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_EQ(same.out, plain.out);
+  }
+}
+
 TEST(BadInput, MeshesAreRefusedByEverySubcommandThatReadsThem) {
   const std::pair<const char*, const char*> cases[] = {
       {"", "tube.off"},

@@ -90,8 +90,15 @@ class TextCursor : public ItemName {
   void skip_to_token();
   void take_line_end();
   std::string_view take_token();
-  /// A '#' begins a comment only where a token could begin: "-1.#IND" is one word.
-  static bool in_token(Kind kind) { return kind == word || kind == hash; }
+  /// Whether the byte at `at`, not the first of its token, belongs to it. A '#' begins a comment there, too
+  /// ("0#red"), but in the spellings that old C libraries have for numbers that are none: "-1.#IND",
+  /// "1.#QNAN".
+  bool in_token(std::size_t at) const {
+    const Kind kind = kind_of(bytes_[at]);
+    if (kind != hash || !comments_) return kind == word || kind == hash;
+    return bytes_[at - 1] == '.' && at + 1 < bytes_.size() &&
+           std::string_view("IQS").find(bytes_[at + 1]) != std::string_view::npos;
+  }
   bool take_short_number(double& value);
 
   std::string_view bytes_, last_;
@@ -169,7 +176,8 @@ inline void TextCursor::skip_to_token() {
 
 inline std::string_view TextCursor::take_token() {
   const std::size_t begin = next_;
-  while (next_ < bytes_.size() && in_token(kind())) ++next_;
+  if (next_ < bytes_.size()) ++next_;
+  while (next_ < bytes_.size() && in_token(next_)) ++next_;
   last_ = bytes_.substr(begin, next_ - begin);
   last_line_ = line_;
   return last_;
@@ -220,7 +228,7 @@ inline bool TextCursor::take_short_number(double& value) {
     else
       break;
   }
-  if (at < end && in_token(kind_of(*at))) return false;
+  if (at < end && in_token(static_cast<std::size_t>(at - bytes_.data()))) return false;
   const std::ptrdiff_t count = at - first - (point != nullptr);
   if (count == 0 || count > 18 || digits > std::uint64_t{1} << 53) return false;
   const auto decimals = static_cast<std::size_t>(point == nullptr ? 0 : at - point - 1);

@@ -20,15 +20,15 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// At commas; or at semicolons, or blanks, where there is no comma.
+/// At commas, or at blanks where there is none.
 std::vector<std::string_view> split(std::string_view line) {
-  const bool comma = line.find(',') != line.npos, semicolon = line.find(';') != line.npos;
-  const std::string_view separators = comma ? "," : semicolon ? ";" : " \t";
+  const bool comma = line.find(',') != line.npos;
+  const std::string_view separators = comma ? "," : " \t";
   std::vector<std::string_view> fields;
   while (true) {
     const std::size_t end = line.find_first_of(separators);
     const std::string_view field = trim(line.substr(0, end));
-    if (comma || semicolon || !field.empty()) fields.push_back(field);
+    if (comma || !field.empty()) fields.push_back(field);
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);
   }
