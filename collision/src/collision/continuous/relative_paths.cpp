@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tendril::collision {
 namespace {
@@ -150,7 +151,7 @@ bool RelativePaths<Degree>::apart(const TimeInterval<Degree>& on, const Vec3& n)
   const double size = n.cwiseAbs().dot(size_along_);
   if (!(size > 0x1p-900)) return false;
   const double error = 2 * relative(roundings<Degree> + 4) * size;
-  double least = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
   for (const Nine& c : on.control) {
     const double first = n.dot(vector(c, 0));
     const double others = std::min(n.dot(vector(c, 1)), n.dot(vector(c, 2)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dynamics/scene/words.h"
@@ -155,7 +156,7 @@ bool StaticNewton::take_downhill(StaticState& at, const Step& step) {
 StaticNewton::Outcome StaticNewton::descend(StaticState& at) {
   best_ = at;
   uphill_ = 0;
-  double before = INFINITY;
+  double before = std::numeric_limits<double>::infinity();
   int slow = 0;
   for (; last_iterations_ < kMostDescending; ++last_iterations_, ++iterations) {
     if (out_of_work()) return fail(Outcome::work_limit, "the work limit");
@@ -249,7 +250,7 @@ bool StaticNewton::leave(StaticState& at) {
 /// Newton's method with the test of natural monotonicity [Deuflhard 2004]: the next step by the same tangent
 /// must be shorter.
 StaticNewton::Outcome StaticNewton::contract(StaticState& at) {
-  double before = INFINITY;
+  double before = std::numeric_limits<double>::infinity();
   int slow = 0;
   for (; last_iterations_ < kMostContracting; ++last_iterations_, ++iterations) {
     if (out_of_work()) return fail(Outcome::work_limit, "the work limit");
