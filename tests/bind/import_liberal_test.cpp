@@ -132,6 +132,12 @@ TEST(ImportLiberally, NamesASurplusItCannotTell) {
   }
 }
 
+TEST(ImportLiberally, LetsALineOfNoNumbersSayNothingOfItsColumns) {
+  // Out of any range on the first line: a nan behind it must not make that a color after all.
+  EXPECT_THROW(read_text("OFF\n3 1 0\n0 0 0 300 7.5 9\n1 0 0 nan nan nan\n0 1 0 1 2 3\n3 0 1 2\n"),
+               InvalidInput);
+}
+
 TEST(ImportLiberally, RefusesALibertyWhereNobodyIsTold) {
   for (const char* name : {"attributes/bin_lfcr.ply", "attributes/nan_color.ply", "attributes/nan_normal.ply",
                            "attributes/trailing_lf_bin.ply", "glued_header/glued.off",

@@ -99,7 +99,7 @@ LineRest take_line(TextCursor& in, std::size_t most) {
   LineRest rest;
   while (!in.line_done()) {
     in.token_in_line();
-    if (!rest.trouble.empty()) continue;
+    if (!rest.trouble.empty()) continue;  // to the line's end, where the next item begins
     double value = 0;
     if (rest.count == most)
       rest.trouble = "the value " + in.found() + " is one too many in its line";
@@ -115,7 +115,8 @@ LineRest take_line(TextCursor& in, std::size_t most) {
   return rest;
 }
 
-/// Reads vertices and faces as text into a mesh.
+/// Reads vertices and faces as text into a mesh. Points and faces are free-form, as Geomview reads them;
+/// colors end with their line, for only that says whether there are three numbers or four.
 class TextBody {
  public:
   TextBody(TextCursor& in, const OffHeader& header, const Notes& notes)
@@ -157,6 +158,7 @@ class TextBody {
     return p;
   }
 
+  /// Takes a token whether it is a number or not, so that what comes behind it is found.
   double read_loosely(Decoration& decoration, const char* what) {
     double value = 0;
     if (!in_.take_number(value))
@@ -199,7 +201,8 @@ class TextBody {
     if (column.kind == OffColumn::texture) return pass_texture(column.count);
     LineRest color;
     for (; color.count < column.count; ++color.count) {
-      if (!in_.take_number(color.values[color.count])) color.values[color.count] = -1;  // outside any range
+      // What is no number becomes one outside any range, and is refused there with all others.
+      if (!in_.take_number(color.values[color.count])) color.values[color.count] = -1;
       color.fraction[color.count] = in_.last_has_fraction();
     }
     add_color(point_colors_, color, color.count);
@@ -207,6 +210,7 @@ class TextBody {
 
   void read_face() {
     in_.at("face", mesh_.face_count());
+    // Numbers, not whole numbers, are read: "3.0" is an index to some exporters.
     add_face(in_, mesh_, in_.number());
     const std::size_t end = mesh_.face_begin.back();
     while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(), header_.vertices);

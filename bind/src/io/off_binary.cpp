@@ -26,6 +26,7 @@ std::size_t read_count(ByteCursor& in, const char* what) {
   return static_cast<std::size_t>(count);
 }
 
+/// Reads one item after the other, without a look ahead: nothing but the bytes before says where one begins.
 class BinaryBody {
  public:
   BinaryBody(ByteCursor in, const OffHeader& header, bool color_counts, const Notes& notes)
@@ -75,6 +76,7 @@ class BinaryBody {
     std::array<double, 4> values{};
     for (std::size_t k = 0; k < count; ++k) {
       values[k] = in_.number(Scalar::float32);
+      // The rest is still to be read: what follows begins behind it.
       if (!std::isfinite(values[k]))
         colors.refuse(in_, "color " + in_.found() + " is not finite", "a finite number");
     }
@@ -104,7 +106,9 @@ class BinaryBody {
   PolygonMesh mesh_;
 };
 
-/// The mesh when it takes all bytes up to the last.
+/// The mesh when it takes all bytes up to the last: in another dialect counts and ids are so large, or small
+/// fractions so odd, that some check fails or bytes are left. A wrong guess costs no more than the file's own
+/// size, since counts reserve no more than the bytes can fill.
 std::optional<PolygonMesh> read_whole(std::string_view bytes, std::size_t begin, const std::string& name,
                                       const OffHeader& header, const Dialect& dialect,
                                       std::vector<std::string>& told) {
@@ -114,7 +118,7 @@ std::optional<PolygonMesh> read_whole(std::string_view bytes, std::size_t begin,
     PolygonMesh mesh = body.read();
     if (body.in().remaining() == 0) return mesh;
   } catch (const InvalidInput&) {
-    // Not this one.
+    // The reason is of no interest: if no dialect fits, Geomview's is read once more for its error.
   }
   return {};
 }
@@ -126,11 +130,11 @@ PolygonMesh read_off_binary(std::string_view bytes, std::size_t begin, const std
   for (const Dialect& dialect : kDialects) {
     if (!notes.tolerant()) break;
     std::vector<std::string> told;
-    const std::optional<PolygonMesh> mesh = read_whole(bytes, begin, name, header, dialect, told);
+    std::optional<PolygonMesh> mesh = read_whole(bytes, begin, name, header, dialect, told);
     if (!mesh) continue;
     if (*dialect.name != '\0') notes.add(name + ": binary OFF, " + dialect.name);
     for (std::string& note : told) notes.add(std::move(note));
-    return *mesh;
+    return std::move(*mesh);
   }
   // As Geomview has it, for the error's place.
   BinaryBody body(ByteCursor(bytes, begin, name, true), header, true, notes);

@@ -18,17 +18,19 @@ class Triple {
 
   void see(const Line& line, const std::array<bool, kMost + 1>& fraction) {
     double squares = 0;
+    for (std::size_t k = first_; k < first_ + 3; ++k) squares += line[k] * line[k];
+    // A normal of a flat face is often written as nan: such a line says nothing of what its column is.
+    if (!std::isfinite(squares)) return;
+    // Exporters write as few as two digits, which leaves a unit vector off by a hundredth.
+    unit_ &= std::abs(squares - 1) < 0.02;
     for (std::size_t k = first_; k < first_ + 3; ++k) {
-      squares += line[k] * line[k];
       in_255_ &= line[k] >= 0 && line[k] <= 255;
       above_one_ |= line[k] > 1 + kColorSlack;
       fractions_ |= fraction[k];
     }
-    // Exporters write three digits; numbers that are none ("nan") say nothing.
-    if (std::isfinite(squares)) unit_ &= std::abs(squares - 1) < 0.02;
-    in_255_ |= !std::isfinite(squares);
   }
   bool normal() const { return unit_; }
+  /// Whole numbers up to 1 alone are no evidence of a color: they would be near black, or flags.
   bool color() const { return !unit_ && in_255_ && (above_one_ || fractions_); }
 
  private:
@@ -69,7 +71,8 @@ VertexLines look_at_vertices(TextCursor& in, std::size_t vertices) {
   return seen;
 }
 
-/// Whether a face stands in each of the lines that are left, as many as the header says.
+/// Whether a face stands in each of the lines that are left, as many as the header says. This tells columns
+/// from free-form text: lines of two vertices have six numbers, too, but then there are fewer of them.
 bool faces_follow(TextCursor& in, std::size_t faces) {
   for (std::size_t f = 0; f < faces; ++f) {
     double degree = 0;
@@ -81,40 +84,40 @@ bool faces_follow(TextCursor& in, std::size_t faces) {
   return in.done();
 }
 
+constexpr OffColumn kNormal{OffColumn::normal, 3}, kRgb{OffColumn::color, 3}, kRgba{OffColumn::color, 4},
+    kTexture{OffColumn::texture, 2};
+
+/// A color of three or four numbers with the normal behind it, where that is a normal.
+Columns color_before_normal(const VertexLines& seen) {
+  if (seen.numbers == 9 && seen.seventh.normal()) return {kRgb, kNormal};
+  if (seen.numbers == 10 && seen.eighth.normal()) return {kRgba, kNormal};
+  return {};
+}
+
 Columns columns_of_plain(const VertexLines& seen) {
   const bool normal = seen.behind_point.normal(), color = seen.behind_point.color();
-  const auto pair = [&](OffColumn::Kind kind, std::size_t count) { return OffColumn{kind, count}; };
   switch (seen.numbers) {
     case 5:
-      return {pair(OffColumn::texture, 2)};
+      return {kTexture};
     case 6:
-      if (normal) return {pair(OffColumn::normal, 3)};
-      if (color) return {pair(OffColumn::color, 3)};
-      return {};
+      return normal ? Columns{kNormal} : color ? Columns{kRgb} : Columns{};
     case 7:
-      if (color) return {pair(OffColumn::color, 4)};
-      return {};
+      return color ? Columns{kRgba} : Columns{};
     case 8:
-      if (normal) return {pair(OffColumn::normal, 3), pair(OffColumn::texture, 2)};
-      return {};
+      return normal ? Columns{kNormal, kTexture} : Columns{};
     case 9:
-      if (normal && seen.seventh.color()) return {pair(OffColumn::normal, 3), pair(OffColumn::color, 3)};
-      if (color && seen.seventh.normal()) return {pair(OffColumn::color, 3), pair(OffColumn::normal, 3)};
-      return {};
     case 10:
-      if (normal && seen.seventh.color()) return {pair(OffColumn::normal, 3), pair(OffColumn::color, 4)};
-      if (color && seen.eighth.normal()) return {pair(OffColumn::color, 4), pair(OffColumn::normal, 3)};
-      return {};
+      // Both orders are about; where both could be meant, the one of the specification.
+      if (normal && seen.seventh.color()) return {kNormal, seen.numbers == 9 ? kRgb : kRgba};
+      return color ? color_before_normal(seen) : Columns{};
     default:
       return {};
   }
 }
 
+/// Under NCOFF the specification's order holds unless the values contradict it.
 Columns columns_of_normal_color(const VertexLines& seen) {
-  if (seen.behind_point.normal()) return {};
-  if (seen.numbers == 9 && seen.seventh.normal()) return {{OffColumn::color, 3}, {OffColumn::normal, 3}};
-  if (seen.numbers == 10 && seen.eighth.normal()) return {{OffColumn::color, 4}, {OffColumn::normal, 3}};
-  return {};
+  return seen.behind_point.normal() ? Columns{} : color_before_normal(seen);
 }
 
 std::string names_of(const Columns& columns) {
@@ -134,6 +137,7 @@ Columns tell(const TextCursor& in, const std::string& reason, const char* expect
   return columns;
 }
 
+/// Costs a look at one line where that has three numbers, as in nearly all files; else a pass over all.
 Columns plain_columns(TextCursor in, const OffHeader& header, const Notes& notes) {
   TextCursor first = in;
   if (first.done()) return {};
