@@ -3,6 +3,7 @@
 #include <tendril/bind/binding.h>
 #include <tendril/bind/judge.h>
 
+#include "bind/unit_missing.h"
 #include "place/moments.h"
 #include "support/pairs.h"
 #include "support/random.h"
@@ -155,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(PullBack, EveryVectorUnit,
                          testing::Values(VectorUnit::bits_256, VectorUnit::bits_512));
 
 TEST_P(EveryVectorUnit, GivesTheBitsOfThePlainLoop) {
-  if (GetParam() > widest_unit()) GTEST_SKIP() << "this machine has no such vector unit";
+  if (GetParam() > widest_unit()) GTEST_SKIP() << unit_missing(GetParam());
   const Bound b = make_bound(3, 10);
   test::Random random(6);
   const Piece<double> piece = pose<double>(make_span(0, b.rest.knots(), b.rest.knots().span(0.5)), b.posed);

@@ -2,6 +2,7 @@
 #include <tendril/base/error.h>
 #include <tendril/bind/bindingf.h>
 
+#include "bind/unit_missing.h"
 #include "place/sweep.h"
 #include "support/pairs.h"
 #include "support/random.h"
@@ -153,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Update, EveryVectorUnit,
                          testing::Values(VectorUnit::bits_256, VectorUnit::bits_512));
 
 TEST_P(EveryVectorUnit, GivesTheBitsOfThePlainLoop) {
-  if (GetParam() > widest_unit()) GTEST_SKIP() << "this machine has no such vector unit";
+  if (GetParam() > widest_unit()) GTEST_SKIP() << unit_missing(GetParam());
   for (const int degree : {1, 2, 3, 4, 5})
     for (const bool off : {false, true}) {
       expect_same_bits<double>(degree, off, GetParam());

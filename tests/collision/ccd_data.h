@@ -19,6 +19,14 @@ inline std::filesystem::path ccd_data() {
   return given ? given : std::filesystem::path(TENDRIL_SOURCE_DIR) / "../shared/data/ccd";
 }
 
+/// Why a test of them is skipped.
+inline std::string no_ccd_data() {
+  return "the public queries (Continuous-Collision-Detection/Sample-Queries) are no part of this tree and "
+         "not at " +
+         ccd_data().string() +
+         "; TENDRIL_CCD_DATA names their folder. The tree's own queries are tested all the same.";
+}
+
 inline std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

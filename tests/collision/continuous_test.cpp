@@ -215,7 +215,7 @@ TEST(Continuous, AgreesWithTheCubicQueriesOfTheTree) {
 
 TEST(Continuous, AgreesWithThePublicQueries) {
   const auto files = test::query_files(test::ccd_data());
-  if (files.empty()) GTEST_SKIP() << "no public queries at " << test::ccd_data();
+  if (files.empty()) GTEST_SKIP() << test::no_ccd_data();
   int queries = 0, positive = 0, missed = 0, invented = 0, undecided = 0, wide = 0, lies = 0;
   for (const auto& file : files) {
     const Features features = test::features_of(file);

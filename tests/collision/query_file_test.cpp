@@ -109,7 +109,7 @@ TEST(QueryFile, RefusesWithThePlace) {
 
 TEST(QueryFile, WritesThePublicFilesByteForByte) {
   const auto files = test::query_files(test::ccd_data());
-  if (files.empty()) GTEST_SKIP() << "no public queries at " << test::ccd_data();
+  if (files.empty()) GTEST_SKIP() << test::no_ccd_data();
   for (const auto& file : files) {
     const std::string text = test::text_of(file);
     EXPECT_EQ(write_queries<1>(read_queries<1>(text, file.string())), text) << file;
