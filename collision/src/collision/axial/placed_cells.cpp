@@ -9,8 +9,12 @@
 namespace tendril::collision {
 namespace {
 
+// Patches a node keeps: a box is made of each, so more of them cost time, fewer cost tightness where a node
+// holds parts of several curve-pairs or both sides of a jump.
 constexpr std::size_t kMostPatches = 4;
 
+/// Grows as the root of the number of cells: slabs finer than the cells along the curve gain nothing, and what
+/// they cost must not follow the size of the mesh.
 std::size_t slabs_for(std::size_t cells, std::size_t most) {
   const auto wanted = static_cast<std::size_t>(2.0 * std::sqrt(static_cast<double>(cells)));
   return std::min(std::max<std::size_t>(64, wanted), most);
@@ -129,6 +133,8 @@ void PlacedCells::pose(std::span<const CurvePair> posed) {
   ++frame_;
   lazy_->groups->pose(posed);
   HierarchyWork& work = lazy_->work;
+  // Where the last pose had most of it touched, the next will: to begin with the refit is cheaper than to
+  // come to it cell by cell. Half of the share, so that a load about the limit does not go to and fro.
   const auto touched = static_cast<double>(work.touched), cells = static_cast<double>(work.cells);
   lazy_->refit_due = work.refitted && touched > 0.5 * lazy_->options.refit_share * cells;
   work = {0, 0, 0, work.cells, 0, 0, false};
@@ -142,6 +148,7 @@ HierarchyWork PlacedCells::work() const {
 }
 
 const Box& PlacedCells::make(const Node& n) {
+  // A box made in an earlier frame still holds where no slab beneath the node has changed since.
   if (lazy_->refit_due) {
     refit();
   } else if (made_[n.meta] == 0 || lazy_->last_change(n.meta) > made_[n.meta]) {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kRounding = 0x1p-36;  // what BoundPoints promises
 constexpr double kOwn = 0x1p-40;       // rounding before the first interval, relative to the span's sizes
+// Below these the frame turns so fast that a bound on it would be too wide to say anything.
 constexpr double kLeastSpeed = 1.0 / 64.0, kLeastOffset = 1.0 / 16.0;  // of the span's sizes
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -33,7 +34,8 @@ Spread hull(const Controls& points, std::size_t count) {
   return {0.5 * (low + high), 0.5 * (high - low)};
 }
 
-/// Between the least and the largest of top[j] / bottom[j]; all bottoms positive.
+/// Between the least and the largest of top[j] / bottom[j]; all bottoms positive. The quotient of two
+/// polynomials is a mean of these with positive weights, which is tighter than to divide their hulls.
 Interval ratio(const std::array<double, kMostControls>& top, const std::array<double, kMostControls>& bottom,
                std::size_t count) {
   double low = top[0] / bottom[0], high = low;
@@ -51,6 +53,7 @@ double least(const std::array<double, kMostControls>& x, std::size_t count) {
 
 /// Orthonormal to a few units of rounding; false where nothing spans them.
 bool choose_axes(const Vec3& along, const Vec3& offset, Mat3& axes) {
+  // Any axes give a true bound; those along the slab's own frame give one near (0, 0, 1), hence a narrow one.
   const double length = along.norm();
   const Vec3 z = along / length;
   const Vec3 x = offset.cross(z);
@@ -92,6 +95,7 @@ Spread in_world(const Mat3& axes, const Direction& d, double turn) {
 /// The frame from the four ratios; false where it may turn too far.
 bool frame_of(const Interval& alpha, const Interval& beta, const Interval& p, const Interval& r,
               std::array<Direction, 3>& axis) {
+  // Up to here, half a right angle, the intervals stay narrow; beyond, the caller cuts the span finer.
   if (!(std::max(alpha.most(), beta.most()) <= 1.0) || !(p.most() <= 1.0)) return false;
   const Interval one{1.0, 1.0};
   const Interval first = one - r * beta;
@@ -154,6 +158,7 @@ Box bound(const Slab& slab, const AxialRange& range) {
       size += std::abs(m) * axis.middle.cwiseAbs();
     }
   } else {
+    // Without a frame: an offset is no longer than its coordinates together, whatever way it points.
     radius.array() += range.reach * (1.0 + 2.0 * kRounding);
   }
   // Fewer than 2^5 roundings of numbers up to `size` and `radius`, each 2^-52 of them at most.

@@ -12,6 +12,9 @@ namespace {
 // A slab reaches over its ends, as which slab a parameter belongs to is rounded. Of the span's length.
 constexpr double kOver = 1e-12;
 
+// Slabs come from weights that the knots alone determine, so that a frame costs no evaluation of the curves
+// but sums of products, and a slab that no query asks for costs nothing.
+
 /// The weight of control point i in the blossom of the span's piece at `arguments`: de Boor's triangle.
 double blossom(const KnotVector& knots, int span, std::size_t i, const std::array<double, kMaxDegree>& at) {
   const auto p = static_cast<std::size_t>(knots.degree());
@@ -28,6 +31,8 @@ double blossom(const KnotVector& knots, int span, std::size_t i, const std::arra
   return d[p];
 }
 
+/// A polynomial's Bernstein coefficients on [from, to] are its blossom at p - j times `from` and j times `to`
+/// [Ramshaw 1989]; the weights are those of the unit control points, one after the other.
 SlabWeights weights_of(const KnotVector& knots, int span, double from, double to) {
   const auto p = static_cast<std::size_t>(knots.degree());
   const double a = knots.knots()[static_cast<std::size_t>(span)];
@@ -48,6 +53,7 @@ bool same(const Vec3* a, const Vec3* b, std::size_t count) {
 }
 
 SpanControls controls_of(const Vec3* u, const Vec3* v, std::size_t count) {
+  // Relative to a point of their own, so that rounding is relative to the span's size and not to its place.
   SpanControls out;
   out.count = count;
   out.base = u[count / 2];
@@ -124,6 +130,7 @@ Box SlabTable::box(std::uint32_t first, std::uint32_t last, const AxialRange& ra
           Vec3::Constant(-std::numeric_limits<double>::infinity())};
   for (std::uint32_t i = first; i <= last;) {
     const Span& span = spans_[span_of_[i]];
+    // One bound for all of a span serves the large nodes near the root, and spares them its slabs.
     const bool whole = i == span.first_slab && last + 1 >= i + span.slabs;
     out = join(out, bound(whole ? span.whole : slab(i), range));
     i += whole ? span.slabs : 1;
@@ -137,6 +144,8 @@ void SlabTable::change(Span& span, const CurvePair& posed, std::uint32_t frame) 
   span.whole = make(span, span.weights);
   span.changed = frame;
   span.framed = true;
+  // A frame on the whole span holds on its slabs. Else each has to be asked, now: whether the span has a
+  // frame everywhere decides what may be kept in the next frame.
   if (span.whole.framed) return;
   for (std::size_t i = span.first_slab; i < span.first_slab + span.slabs; ++i)
     span.framed = slab(i).framed && span.framed;
@@ -149,6 +158,7 @@ void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
     if (posed[k].knots() != pairs_[k].knots)
       throw InvalidInput("posed curve-pair", "other knots", "those of the rest");
   made_ = unframed_ = 0;
+  // By value, not by a flag of the caller's: what is compared is what the bounds were made from.
   for (Span& span : spans_) {
     const PairSpans& pair = pairs_[span.pair];
     const Points u = posed[span.pair].primary().control_points();

@@ -8,7 +8,7 @@ namespace tendril::collision {
 namespace {
 
 constexpr double unit = 0x1p-52;
-/// P of the header.
+/// P of the header: how many roundings a coordinate of a point at a time has gone through.
 template <int Degree>
 constexpr double roundings = 1 + 3 * Degree;
 /// u times a count of roundings: a bound of g(count - 1).
@@ -32,7 +32,8 @@ bool all_finite(const Paths<Degree>& paths) {
   return finite;
 }
 
-/// A power of two by which coordinates are multiplied so that their products stay in range.
+/// A power of two by which coordinates are multiplied so that their products stay in range; exact, but
+/// where it makes numbers subnormal, which in_range() sees.
 double scale_for(double largest) {
   if (largest == 0.0 || (largest > 0x1p-200 && largest < 0x1p200)) return 1.0;
   return std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1020, 1020));
@@ -43,7 +44,8 @@ void blend(const Nine& a, const Nine& b, double t, Nine& out) {
   for (int k = 0; k < 9; ++k) out[k] = s * a[k] + t * b[k];
 }
 
-/// The blossom of a cubic at (x, y, z).
+/// The blossom of a cubic at (x, y, z): at (a, a, b) it is a time-control point of the piece on [a, b], made
+/// from the original ones, so that no error is handed down from piece to piece.
 Nine blossom(const std::array<Nine, 4>& c, double x, double y, double z) {
   Nine a, b, d;
   blend(c[0], c[1], x, a);
@@ -78,7 +80,9 @@ int common_sign(const std::array<double, Count>& c, double error) {
   return *least > error ? 1 : (*most < -error ? -1 : 0);
 }
 
-/// The axis along which the features' common normal is longest.
+/// A minor is a projection along an axis: along the longest part of the normal the features are seen least
+/// foreshortened, and the signs are farthest from rounding.
+/// \return  the axis along which the features' common normal is longest.
 int normal_axis(Features features, const Nine& place) {
   const Vec3 along = vector(place, 2) - vector(place, 1);
   const Vec3 other =
@@ -197,6 +201,7 @@ template <int Degree>
 bool RelativePaths<Degree>::has_one_root(const std::array<double, 3 * Degree + 1>& c) const {
   const double error = relative(3 * roundings<Degree> + 18) * permanent_;
   const double sign = c.front() > 0.0 ? 1.0 : -1.0;
+  // Sure signs from either end; what is left between them may be of either sign, or zero.
   std::size_t before = 0;
   while (before < c.size() && sign * c[before] > error) ++before;
   std::size_t after = c.size();
