@@ -13,8 +13,8 @@ namespace {
 // holds parts of several curve-pairs or both sides of a jump.
 constexpr std::size_t kMostPatches = 4;
 
-/// Grows as the root of the number of cells: slabs finer than the cells along the curve gain nothing, and what
-/// they cost must not follow the size of the mesh.
+/// Grows as the root of the number of cells: slabs finer than the cells along the curve gain nothing, and
+/// what they cost must not follow the size of the mesh.
 std::size_t slabs_for(std::size_t cells, std::size_t most) {
   const auto wanted = static_cast<std::size_t>(2.0 * std::sqrt(static_cast<double>(cells)));
   return std::min(std::max<std::size_t>(64, wanted), most);

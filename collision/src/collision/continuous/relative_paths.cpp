@@ -32,8 +32,8 @@ bool all_finite(const Paths<Degree>& paths) {
   return finite;
 }
 
-/// A power of two by which coordinates are multiplied so that their products stay in range; exact, but
-/// where it makes numbers subnormal, which in_range() sees.
+/// A power of two by which coordinates are multiplied so that their products stay in range; exact but
+/// for what underflows, which the bounds of the header count.
 double scale_for(double largest) {
   if (largest == 0.0 || (largest > 0x1p-200 && largest < 0x1p200)) return 1.0;
   return std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1020, 1020));
