@@ -1,5 +1,7 @@
 #include "scene/json/json_node.h"
 
+#include "scene/json/json_walk.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -27,30 +29,9 @@ std::string without_prefix(const std::string& message) {
 }
 
 /// First pass over the text: what the building parser would not tell, or not with a place.
-class SyntaxCheck : public nlohmann::json_sax<Json> {
+class SyntaxCheck : public JsonWalk {
  public:
   SyntaxCheck(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t&) override { return value(); }
-  bool binary(binary_t&) override { return value(); }
-  bool start_object(std::size_t) override { return open(false); }
-  bool start_array(std::size_t) override { return open(true); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-
-  bool key(string_t& key) override {
-    if (!levels_.back().keys.insert(key).second) {
-      throw SceneError({name_, pointer() + "/" + escape(key)}, "the key is given twice",
-                       "each key once in an object");
-    }
-    levels_.back().key = key;
-    return true;
-  }
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
@@ -59,40 +40,22 @@ class SyntaxCheck : public nlohmann::json_sax<Json> {
   }
 
  private:
-  struct Level {
-    bool is_array;
-    std::size_t index = 0;
-    std::string key{};
-    std::set<std::string> keys{};
-  };
-
-  bool value() {
-    if (!levels_.empty()) ++levels_.back().index;
-    return true;
+  bool at_key() override {
+    if (keys_.back().insert(levels().back().key).second) return true;
+    throw SceneError({name_, pointer()}, "the key is given twice", "each key once in an object");
   }
-  bool open(bool is_array) {
-    if (levels_.size() == kDeepest) {
-      throw SceneError({name_, pointer()}, "nested too deeply",
+  bool at_open() override {
+    if (levels().size() == kDeepest)
+      throw SceneError({name_, pointer(kDeepest - 1)}, "nested too deeply",
                        "at most " + std::to_string(kDeepest) + " levels");
-    }
-    levels_.push_back({is_array});
+    keys_.emplace_back();
     return true;
   }
-  bool close() {
-    levels_.pop_back();
-    return value();
-  }
-  std::string pointer() const {
-    std::string out;
-    for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
-      out += "/" + (levels_[i].is_array ? std::to_string(levels_[i].index) : escape(levels_[i].key));
-    }
-    return out;
-  }
+  void at_close() override { keys_.pop_back(); }
 
   std::string_view text_;
   const std::string& name_;
-  std::vector<Level> levels_;
+  std::vector<std::set<std::string>> keys_;  ///< of the objects around
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "scene/json/line_of.h"
 
-#include "scene/json/json_node.h"
+#include "scene/json/json_walk.h"
 
 #include <algorithm>
 #include <iterator>
@@ -37,26 +37,11 @@ class Reading {
 
 /// Walks along with the parser, whose events come as soon as it has read what they are about; after a number,
 /// one character later. Stops at the value asked for.
-class Search : public nlohmann::json_sax<Json> {
+class Search : public JsonWalk {
  public:
   Search(std::string_view text, const std::string& wanted, const char* const& come)
       : text_(text), wanted_(wanted), come_(come) {}
 
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t&) override { return value(); }
-  bool binary(binary_t&) override { return value(); }
-  bool start_object(std::size_t) override { return open(false); }
-  bool start_array(std::size_t) override { return open(true); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool key(string_t& key) override {
-    levels_.back().key = key;
-    return note();
-  }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
     line_ = 0;
     return false;
@@ -65,21 +50,8 @@ class Search : public nlohmann::json_sax<Json> {
   std::size_t line() const { return line_; }
 
  private:
-  struct Level {
-    bool is_array;
-    std::size_t index = 0;
-    std::string key{};
-  };
-
-  std::string pointer() const {
-    std::string out;
-    for (const Level& level : levels_)
-      out += "/" + (level.is_array ? std::to_string(level.index) : escape(level.key));
-    return out;
-  }
-
   /// Where what has just been read lies on the way to what is wanted, its line is the best known so far.
-  bool note() {
+  bool at_key() override {
     const std::string here = pointer();
     if (wanted_.compare(0, here.size(), here) != 0) return true;
     if (wanted_.size() > here.size() && wanted_[here.size()] != '/') return true;
@@ -87,27 +59,13 @@ class Search : public nlohmann::json_sax<Json> {
     line_ = static_cast<std::size_t>(1 + std::count(text_.data(), last, '\n'));
     return here != wanted_;
   }
-  bool value() {
-    if (levels_.empty() || !levels_.back().is_array) return true;
-    const bool go_on = note();
-    ++levels_.back().index;
-    return go_on;
-  }
-  bool open(bool is_array) {
-    if ((levels_.empty() || levels_.back().is_array) && !note()) return false;
-    levels_.push_back({is_array});
-    return true;
-  }
-  bool close() {
-    levels_.pop_back();
-    if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
-    return true;
-  }
+  /// A value in an object stands at its key.
+  bool at_scalar() override { return levels().empty() || !levels().back().is_array || at_key(); }
+  bool at_open() override { return at_scalar(); }
 
   std::string_view text_;
   const std::string& wanted_;
   const char* const& come_;
-  std::vector<Level> levels_;
   std::size_t line_ = 0;
 };
 
