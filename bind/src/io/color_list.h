@@ -74,4 +74,29 @@ class ColorList {
   bool any_ = false;
 };
 
+/// What a reader collects beside the surface, and what of it is kept in the end: normals, and colors by
+/// Colors, a ColorList, or a Decoration where they are put into the mesh as they are read.
+template <class Colors>
+struct Attributes {
+  explicit Attributes(const Notes& notes)
+      : normals("normals", notes), point_colors("vertex colors", notes), face_colors("face colors", notes) {}
+
+  void finish(PolygonMesh& mesh) const {
+    if (normals.dropped()) mesh.point_normals.clear();
+    finish(point_colors, mesh.point_colors);
+    finish(face_colors, mesh.face_colors);
+  }
+
+  Decoration normals;
+  Colors point_colors, face_colors;
+
+ private:
+  static void finish(const Decoration& colors, std::vector<Color>& out) {
+    if (colors.dropped()) out.clear();
+  }
+  static void finish(const ColorList& colors, std::vector<Color>& out) {
+    if (!colors.dropped()) out = colors.finish();
+  }
+};
+
 }  // namespace tendril::bind

@@ -120,12 +120,7 @@ LineRest take_line(TextCursor& in, std::size_t most) {
 class TextBody {
  public:
   TextBody(TextCursor& in, const OffHeader& header, const Notes& notes)
-      : in_(in),
-        header_(header),
-        notes_(notes),
-        normals_("normals", notes),
-        point_colors_("vertex colors", notes),
-        face_colors_("face colors", notes) {}
+      : in_(in), header_(header), notes_(notes), attributes_(notes) {}
 
   PolygonMesh read() {
     const std::vector<OffColumn> columns = off_columns(in_, header_, notes_);
@@ -145,9 +140,7 @@ class TextBody {
       in_.token("");
       in_.fail(in_.found() + " is left over", "the end of the file");
     }
-    if (normals_.dropped()) mesh_.point_normals.clear();
-    if (!point_colors_.dropped()) mesh_.point_colors = point_colors_.finish();
-    if (!face_colors_.dropped()) mesh_.face_colors = face_colors_.finish();
+    attributes_.finish(mesh_);
     return std::move(mesh_);
   }
 
@@ -172,7 +165,7 @@ class TextBody {
 
   void read_normal() {
     Vec3 normal;
-    for (double& c : normal) c = read_loosely(normals_, "normal");
+    for (double& c : normal) c = read_loosely(attributes_.normals, "normal");
     mesh_.point_normals.push_back(normal);
   }
 
@@ -184,8 +177,8 @@ class TextBody {
     LineRest rest = take_line(in_, 4 + texture);
     if (rest.trouble.empty() && rest.count < 3 + texture)
       rest.trouble = "only " + std::to_string(rest.count) + " values after the point";
-    if (!rest.trouble.empty()) return point_colors_.refuse(in_, rest.trouble, expected);
-    add_color(point_colors_, rest, rest.count - texture);
+    if (!rest.trouble.empty()) return attributes_.point_colors.refuse(in_, rest.trouble, expected);
+    add_color(attributes_.point_colors, rest, rest.count - texture);
   }
 
   void add_color(ColorList& colors, const LineRest& rest, std::size_t components) {
@@ -205,7 +198,7 @@ class TextBody {
       if (!in_.take_number(color.values[color.count])) color.values[color.count] = -1;
       color.fraction[color.count] = in_.last_has_fraction();
     }
-    add_color(point_colors_, color, color.count);
+    add_color(attributes_.point_colors, color, color.count);
   }
 
   void read_face() {
@@ -214,14 +207,15 @@ class TextBody {
     add_face(in_, mesh_, in_.number());
     const std::size_t end = mesh_.face_begin.back();
     while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(), header_.vertices);
-    if (in_.line_done()) return face_colors_.add_none();  // the most frequent by far
+    if (in_.line_done()) return attributes_.face_colors.add_none();  // the most frequent by far
     LineRest rest = take_line(in_, 4);
     if (rest.trouble.empty() && (rest.count == 2 || (rest.count == 1 && rest.fraction[0])))
       rest.trouble = "a color that is none";
     if (!rest.trouble.empty())
-      return face_colors_.refuse(in_, rest.trouble, "0, 1, 3 or 4 color values to the end of the line");
-    if (rest.count < 3) return face_colors_.add_none();
-    add_color(face_colors_, rest, rest.count);
+      return attributes_.face_colors.refuse(in_, rest.trouble,
+                                            "0, 1, 3 or 4 color values to the end of the line");
+    if (rest.count < 3) return attributes_.face_colors.add_none();
+    add_color(attributes_.face_colors, rest, rest.count);
   }
 
   /// Faces beyond those the header counts.
@@ -237,8 +231,7 @@ class TextBody {
   TextCursor& in_;
   const OffHeader& header_;
   Notes notes_;
-  Decoration normals_;
-  ColorList point_colors_, face_colors_;
+  Attributes<ColorList> attributes_;
   PolygonMesh mesh_;
 };
 

@@ -55,12 +55,7 @@ template <class Values>
 class BodyReader {
  public:
   BodyReader(Values in, const PlyHeader& header, const Notes& notes)
-      : in_(std::move(in)),
-        header_(header),
-        notes_(notes),
-        normals_("normals", notes),
-        point_colors_("vertex colors", notes),
-        face_colors_("face colors", notes) {
+      : in_(std::move(in)), header_(header), notes_(notes), attributes_(notes) {
     const PlyElement* const vertices = header.find("vertex");
     points_ = vertices == nullptr ? 0 : vertices->count;
   }
@@ -79,9 +74,7 @@ class BodyReader {
     }
     in_.at("after the last element");
     in_.end_file(notes_);
-    if (normals_.dropped()) mesh_.point_normals.clear();
-    if (point_colors_.dropped()) mesh_.point_colors.clear();
-    if (face_colors_.dropped()) mesh_.face_colors.clear();
+    attributes_.finish(mesh_);
     return std::move(mesh_);
   }
 
@@ -165,7 +158,7 @@ class BodyReader {
       } else if (slot == indices) {
         take_face(property);
       } else if (slot >= nx) {
-        record[slot] = take_decoration(property, slot, slot >= red ? colors : normals_);
+        record[slot] = take_decoration(property, slot, slot >= red ? colors : attributes_.normals);
       } else {
         record[slot] = take(property);
       }
@@ -182,7 +175,7 @@ class BodyReader {
     if (!surplus_) notes_.add(in_.place() + reason + ": no colors or normals of such lines are kept");
     surplus_ = true;
     colors.drop();
-    if (vertex) normals_.drop();
+    if (vertex) attributes_.normals.drop();
     in_.pass_line();
   }
 
@@ -200,7 +193,7 @@ class BodyReader {
     record[alpha] = 255;
     for (std::size_t v = 0; v < element.count; ++v) {
       in_.at("vertex", v);
-      read_record(element, plan, point_colors_, record);
+      read_record(element, plan, attributes_.point_colors, record);
       mesh_.points.emplace_back(record[x], record[y], record[z]);
       if (plan.normals()) mesh_.point_normals.emplace_back(record[nx], record[ny], record[nz]);
       if (plan.colors()) mesh_.point_colors.push_back(color_of(record));
@@ -218,7 +211,7 @@ class BodyReader {
     record[alpha] = 255;
     for (std::size_t f = 0; f < element.count; ++f) {
       in_.at("face", f);
-      read_record(element, plan, face_colors_, record);
+      read_record(element, plan, attributes_.face_colors, record);
       if (plan.colors()) mesh_.face_colors.push_back(color_of(record));
     }
   }
@@ -228,7 +221,7 @@ class BodyReader {
     for (std::size_t i = 0; i < element.count; ++i) {
       in_.at(element.name, i);
       for (const PlyProperty& property : element.properties) skip_property(property);
-      if (!in_.end_record()) pass_surplus(face_colors_, false);
+      if (!in_.end_record()) pass_surplus(attributes_.face_colors, false);
     }
   }
 
@@ -238,7 +231,7 @@ class BodyReader {
       in_.at("tristrips", i);
       for (const PlyProperty& property : element.properties)
         slot_of(property, true) == indices ? take_strips(property) : skip_property(property);
-      if (!in_.end_record()) pass_surplus(face_colors_, false);
+      if (!in_.end_record()) pass_surplus(attributes_.face_colors, false);
     }
   }
 
@@ -271,7 +264,7 @@ class BodyReader {
   Values in_;
   const PlyHeader& header_;
   Notes notes_;
-  Decoration normals_, point_colors_, face_colors_;
+  Attributes<Decoration> attributes_;
   bool surplus_ = false;
   std::size_t points_ = 0;
   PolygonMesh mesh_;

@@ -30,13 +30,7 @@ std::size_t read_count(ByteCursor& in, const char* what) {
 class BinaryBody {
  public:
   BinaryBody(ByteCursor in, const OffHeader& header, bool color_counts, const Notes& notes)
-      : in_(std::move(in)),
-        header_(header),
-        color_counts_(color_counts),
-        notes_(notes),
-        normals_("normals", notes),
-        point_colors_("vertex colors", notes),
-        face_colors_("face colors", notes) {}
+      : in_(std::move(in)), header_(header), color_counts_(color_counts), notes_(notes), attributes_(notes) {}
 
   PolygonMesh read() {
     in_.at("header");
@@ -47,9 +41,7 @@ class BinaryBody {
     for (std::size_t v = 0; v < header_.vertices; ++v) read_vertex(v);
     for (std::size_t f = 0; f < header_.faces; ++f) read_face(f);
     in_.at("after the last face");
-    if (normals_.dropped()) mesh_.point_normals.clear();
-    if (!point_colors_.dropped()) mesh_.point_colors = point_colors_.finish();
-    if (!face_colors_.dropped()) mesh_.face_colors = face_colors_.finish();
+    attributes_.finish(mesh_);
     return std::move(mesh_);
   }
   const ByteCursor& in() const { return in_; }
@@ -63,10 +55,10 @@ class BinaryBody {
     for (std::size_t k = 0; header_.normals && k < 3; ++k) {
       normal[static_cast<Eigen::Index>(k)] = in_.number(Scalar::float32);
       if (!std::isfinite(normal[static_cast<Eigen::Index>(k)]))
-        normals_.refuse(in_, "normal " + in_.found() + " is not finite", "a finite number");
+        attributes_.normals.refuse(in_, "normal " + in_.found() + " is not finite", "a finite number");
     }
     if (header_.normals) mesh_.point_normals.push_back(normal);
-    if (header_.colors) read_color(4, point_colors_);
+    if (header_.colors) read_color(4, attributes_.point_colors);
     for (int k = 0; header_.texture && k < 2; ++k)
       finite(in_, in_.number(Scalar::float32), "texture coordinate");
   }
@@ -94,15 +86,14 @@ class BinaryBody {
     if (!color_counts_) return;
     const std::size_t components = read_count(in_, "color values");
     if (components == 2 || components > 4) in_.fail(in_.found() + " color values", "0, 1, 3 or 4");
-    read_color(components, face_colors_);
+    read_color(components, attributes_.face_colors);
   }
 
   ByteCursor in_;
   OffHeader header_;
   bool color_counts_;
   Notes notes_;
-  Decoration normals_;
-  ColorList point_colors_, face_colors_;
+  Attributes<ColorList> attributes_;
   PolygonMesh mesh_;
 };
 
