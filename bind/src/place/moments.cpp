@@ -109,42 +109,26 @@ TENDRIL_INLINE void sum_moments(const Scratch& from, std::size_t k, std::size_t 
 }
 
 template <int P>
-TENDRIL_INLINE void moments(const Piece<double>& piece, const RecordsView<double>& records,
-                            const ColumnsView<const double>& force, std::size_t count, Moments& to) {
-  Scratch scratch;
-  const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
-  const auto copy = [&](const double* from, double* column) {
-    std::memcpy(column, from, count * sizeof(double));
-    for (std::size_t i = count; i < padded; ++i) column[i] = 0.0;
-  };
-  copy(records.s, scratch.s);
-  copy(force.x, scratch.f[0]);
-  copy(force.y, scratch.f[1]);
-  copy(force.z, scratch.f[2]);
-  pull_all<P>(piece, records, count, scratch);
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = count; i < padded; ++i) scratch.z[k][i] = scratch.d[k][i] = 0.0;
-    sum_moments<P>(scratch, k, padded, to);
+struct AddMoments {
+  static TENDRIL_INLINE void run(const Piece<double>& piece, const RecordsView<double>& records,
+                                 const ColumnsView<const double>& force, std::size_t count, Moments* to) {
+    Scratch scratch;
+    const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+    const auto copy = [&](const double* from, double* column) {
+      std::memcpy(column, from, count * sizeof(double));
+      for (std::size_t i = count; i < padded; ++i) column[i] = 0.0;
+    };
+    copy(records.s, scratch.s);
+    copy(force.x, scratch.f[0]);
+    copy(force.y, scratch.f[1]);
+    copy(force.z, scratch.f[2]);
+    pull_all<P>(piece, records, count, scratch);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = count; i < padded; ++i) scratch.z[k][i] = scratch.d[k][i] = 0.0;
+      sum_moments<P>(scratch, k, padded, *to);
+    }
   }
-}
-
-using View = ColumnsView<const double>;
-
-template <int P>
-TENDRIL_UNIT_PLAIN void moments_plain(const Piece<double>& p, const RecordsView<double>& r, const View& f,
-                                      std::size_t n, Moments& to) {
-  moments<P>(p, r, f, n, to);
-}
-template <int P>
-TENDRIL_UNIT_256 void moments_256(const Piece<double>& p, const RecordsView<double>& r, const View& f,
-                                  std::size_t n, Moments& to) {
-  moments<P>(p, r, f, n, to);
-}
-template <int P>
-TENDRIL_UNIT_512 void moments_512(const Piece<double>& p, const RecordsView<double>& r, const View& f,
-                                  std::size_t n, Moments& to) {
-  moments<P>(p, r, f, n, to);
-}
+};
 
 }  // namespace
 
@@ -161,14 +145,7 @@ void add_moments_on(VectorUnit unit, const Piece<double>& piece, const RecordsVi
                     const ColumnsView<const double>& force, std::size_t count, Moments& to) {
   for_degree(piece.degree, [&](auto degree) {
     constexpr int p = decltype(degree)::value;
-    switch (unit) {
-      case VectorUnit::bits_512:
-        return moments_512<p>(piece, records, force, count, to);
-      case VectorUnit::bits_256:
-        return moments_256<p>(piece, records, force, count, to);
-      default:
-        return moments_plain<p>(piece, records, force, count, to);
-    }
+    OnUnits<AddMoments<p>>::run(unit, piece, records, force, count, &to);
   });
 }
 

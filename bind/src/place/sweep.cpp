@@ -4,52 +4,25 @@ namespace tendril::bind {
 namespace {
 
 template <class T, int P, bool Off>
-TENDRIL_INLINE bool sweep_span(const Piece<T>& piece, const RecordsView<T>& records,
-                               const ColumnsView<T>& out, std::size_t count) {
-  const T *__restrict s = records.s, *__restrict u = records.u, *__restrict v = records.v,
-          *__restrict w = records.w;
-  T* __restrict x = out.x, * __restrict y = out.y, * __restrict z = out.z;
-  const Piece<T> local = piece;
-  Flag<T> left = 0;
-  TENDRIL_LOOP
-  for (std::size_t i = 0; i < count; ++i) {
-    const Evaluated<T> evaluated = evaluate<T, P, Off>(local, s[i], u[i], v[i], Off ? w[i] : T(0));
-    x[i] = evaluated.point.x;
-    y[i] = evaluated.point.y;
-    z[i] = evaluated.point.z;
-    left |= evaluated.fault;
+struct SweepSpan {
+  static TENDRIL_INLINE bool run(const Piece<T>& piece, const RecordsView<T>& records,
+                                 const ColumnsView<T>& out, std::size_t count) {
+    const T *__restrict s = records.s, *__restrict u = records.u, *__restrict v = records.v,
+            *__restrict w = records.w;
+    T* __restrict x = out.x, * __restrict y = out.y, * __restrict z = out.z;
+    const Piece<T> local = piece;
+    Flag<T> left = 0;
+    TENDRIL_LOOP
+    for (std::size_t i = 0; i < count; ++i) {
+      const Evaluated<T> evaluated = evaluate<T, P, Off>(local, s[i], u[i], v[i], Off ? w[i] : T(0));
+      x[i] = evaluated.point.x;
+      y[i] = evaluated.point.y;
+      z[i] = evaluated.point.z;
+      left |= evaluated.fault;
+    }
+    return left != 0;
   }
-  return left != 0;
-}
-
-template <class T, int P, bool Off>
-TENDRIL_UNIT_PLAIN bool sweep_plain(const Piece<T>& p, const RecordsView<T>& r, const ColumnsView<T>& o,
-                                    std::size_t n) {
-  return sweep_span<T, P, Off>(p, r, o, n);
-}
-template <class T, int P, bool Off>
-TENDRIL_UNIT_256 bool sweep_256(const Piece<T>& p, const RecordsView<T>& r, const ColumnsView<T>& o,
-                                std::size_t n) {
-  return sweep_span<T, P, Off>(p, r, o, n);
-}
-template <class T, int P, bool Off>
-TENDRIL_UNIT_512 bool sweep_512(const Piece<T>& p, const RecordsView<T>& r, const ColumnsView<T>& o,
-                                std::size_t n) {
-  return sweep_span<T, P, Off>(p, r, o, n);
-}
-
-template <class T, int P, bool Off>
-bool sweep_by_unit(VectorUnit unit, const Piece<T>& p, const RecordsView<T>& r, const ColumnsView<T>& o,
-                   std::size_t n) {
-  switch (unit) {
-    case VectorUnit::bits_512:
-      return sweep_512<T, P, Off>(p, r, o, n);
-    case VectorUnit::bits_256:
-      return sweep_256<T, P, Off>(p, r, o, n);
-    default:
-      return sweep_plain<T, P, Off>(p, r, o, n);
-  }
-}
+};
 
 }  // namespace
 
@@ -58,8 +31,8 @@ bool sweep_on(VectorUnit unit, const Piece<T>& piece, bool off, const RecordsVie
               const ColumnsView<T>& out, std::size_t count) {
   return for_degree(piece.degree, [&](auto degree) {
     constexpr int p = decltype(degree)::value;
-    return off ? sweep_by_unit<T, p, true>(unit, piece, records, out, count)
-               : sweep_by_unit<T, p, false>(unit, piece, records, out, count);
+    return off ? OnUnits<SweepSpan<T, p, true>>::run(unit, piece, records, out, count)
+               : OnUnits<SweepSpan<T, p, false>>::run(unit, piece, records, out, count);
   });
 }
 

@@ -17,7 +17,6 @@
 #define TENDRIL_UNIT_256
 #define TENDRIL_UNIT_512
 #endif
-#define TENDRIL_UNIT_PLAIN
 
 namespace tendril::bind {
 
@@ -32,6 +31,33 @@ inline VectorUnit widest_unit() {
 #endif
   return VectorUnit::plain;
 }
+
+/// Kernel::run, a static function marked TENDRIL_INLINE, compiled for each vector unit: it is inlined into a
+/// function of each, whose unit it takes.
+template <class Kernel>
+struct OnUnits {
+  template <class... Arguments>
+  static auto run(VectorUnit unit, const Arguments&... arguments) {
+    switch (unit) {
+      case VectorUnit::bits_512:
+        return on_512(arguments...);
+      case VectorUnit::bits_256:
+        return on_256(arguments...);
+      default:
+        return Kernel::run(arguments...);
+    }
+  }
+
+ private:
+  template <class... Arguments>
+  TENDRIL_UNIT_256 static auto on_256(const Arguments&... arguments) {
+    return Kernel::run(arguments...);
+  }
+  template <class... Arguments>
+  TENDRIL_UNIT_512 static auto on_512(const Arguments&... arguments) {
+    return Kernel::run(arguments...);
+  }
+};
 
 /// Calls body(std::integral_constant<int, degree>) for a degree of 1 to 5.
 template <class Body>
