@@ -1,48 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "accuracy/case.h"
+#include "study/svg.h"
 
 namespace tendril::accuracy {
 namespace {
 
+using namespace svg;
+
 constexpr double kWidth = 430, kHeight = 300, kLeft = 76, kTop = 34, kRight = 16, kFoot = 48, kLine = 18;
 
-/// Colours that differ for colour-blind readers too (Okabe and Ito), dark enough on white.
-constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#8c6d1f", "#332288"};
 constexpr const char* kGrey = "#aaaaaa";
-
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return out;
-}
-
-std::string words(double x, double y, const char* anchor, const std::string& text,
-                  const char* kind = "words") {
-  return "<text x=\"" + number("%.1f", x) + "\" y=\"" + number("%.1f", y) + "\" text-anchor=\"" + anchor +
-         "\" class=\"" + kind + "\">" + escaped(text) + "</text>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2) {
-  return "<line class=\"grid\" x1=\"" + number("%.1f", x1) + "\" y1=\"" + number("%.1f", y1) + "\" x2=\"" +
-         number("%.1f", x2) + "\" y2=\"" + number("%.1f", y2) + "\"/>\n";
-}
-
-/// Values to places in the picture.
-struct Axis {
-  double low, high, from, to;
-  double operator()(double value) const { return from + (to - from) * (value - low) / (high - low); }
-};
 
 Axis axis_over(double low, double high, double from, double to) {
   if (!(high > low)) high = low + 1;
@@ -60,17 +29,14 @@ std::vector<double> ticks(const Axis& axis) {
 }
 
 std::string draw(const Curve& curve, const Axis& x, const Axis& y, const char* colour) {
-  std::string out, path;
-  for (const auto& [px, py] : curve.points) {
-    const std::string cx = number("%.1f", x(px)), cy = number("%.1f", y(py));
+  std::string marks, path;
+  for (const auto& [px, py] : curve.points)
     if (curve.kind == Curve::Kind::marks)
-      out += "<circle cx=\"" + cx + "\" cy=\"" + cy + "\" r=\"2.8\" fill=\"" + colour + "\"/>\n";
+      marks += circle(x(px), y(py), 2.8, colour);
     else
-      path += cx + "," + cy + " ";
-  }
-  if (!path.empty())
-    out = "<polyline class=\"curve\" stroke=\"" + std::string(colour) + "\" points=\"" + path + "\"/>\n";
-  return out;
+      path += corner(x(px), y(py));
+  if (path.empty()) return marks;
+  return Element("polyline").with("class", "curve").with("stroke", colour).with("points", path).end();
 }
 
 /// The curve's line of the legend.
@@ -80,24 +46,17 @@ std::string key(const Curve& curve, const char* colour, double height) {
          words(kLeft + 30, height, "start", curve.name);
 }
 
-std::string opening(double height) {
-  const std::string w = number("%.0f", kWidth), h = number("%.0f", height);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " +
-         w + " " + h +
-         "\">\n<style>text{font-family:'DejaVu "
-         "Sans',Helvetica,Arial,sans-serif;fill:#222}.words{font-size:11px}"
-         ".title{font-size:13px;font-weight:bold}.grid{stroke:#e2e2e2}.curve{fill:none;stroke-width:1.6}"
-         "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
-}
+const char* const kStyle =
+    ".words{font-size:11px}.title{font-size:13px;font-weight:bold}.grid{stroke:#e2e2e2}"
+    ".curve{fill:none;stroke-width:1.6}";
 
 /// A picture whose points are places on the axes already; `label` writes a tick.
 template <typename Label>
-std::string picture(const Figure& figure, const Axis& x, const Axis& y, const std::vector<double>& x_ticks,
-                    const std::vector<double>& y_ticks, Label label) {
+std::string drawn(const Figure& figure, const Axis& x, const Axis& y, const std::vector<double>& x_ticks,
+                  const std::vector<double>& y_ticks, Label label) {
   const auto named = std::count_if(figure.curves.begin(), figure.curves.end(),
                                    [](const Curve& curve) { return !curve.name.empty(); });
-  std::string out = opening(kHeight + kLine * static_cast<double>(named));
-  out += words(kLeft, 20, "start", figure.title, "title");
+  std::string out = words(kLeft, 20, "start", figure.title, "title");
   for (const double at : x_ticks) {
     out += line(x(at), y.from, x(at), y.to);
     out += words(x(at), y.from + 16, "middle", label(at, true));
@@ -121,7 +80,7 @@ std::string picture(const Figure& figure, const Axis& x, const Axis& y, const st
     out += key(curve, colour, at);
     at += kLine;
   }
-  return out + "</svg>\n";
+  return picture(kWidth, kHeight + kLine * static_cast<double>(named), kStyle, out);
 }
 
 struct Box {
@@ -159,8 +118,8 @@ std::string to_svg(const Figure& figure) {
   if (figure.same_scale) even_out(box);
   const Axis x = axis_over(box.x[0], box.x[1], kLeft, kWidth - kRight);
   const Axis y = axis_over(box.y[0], box.y[1], kHeight - kFoot, kTop);
-  return picture(figure, x, y, ticks(x), ticks(y),
-                 [](double at, bool) { return number("%.3g", std::abs(at) < 1e-12 ? 0.0 : at); });
+  return drawn(figure, x, y, ticks(x), ticks(y),
+               [](double at, bool) { return number("%.3g", std::abs(at) < 1e-12 ? 0.0 : at); });
 }
 
 std::string errors_svg(const Case& one) {
@@ -186,7 +145,7 @@ std::string errors_svg(const Case& one) {
     if (at >= x.low && at <= x.high && (apart.empty() || x(at) - x(apart.back()) > 34)) apart.push_back(at);
   const double stride = std::ceil((y.high - y.low) / 8);
   for (double e = std::ceil(y.low); e <= y.high; e += stride) decades.push_back(e);
-  return picture(figure, x, y, apart, decades, [](double at, bool is_count) {
+  return drawn(figure, x, y, apart, decades, [](double at, bool is_count) {
     return is_count ? number("%.0f", std::pow(10.0, at)) : number("1e%.0f", at);
   });
 }
