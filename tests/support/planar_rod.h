@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PlanarRod {
   Vec2 gravity = Vec2::Zero();
   Vec2 air = Vec2::Zero();
   double air_density = 0.0, normal_drag = 0.0, tangential_drag = 0.0;
+  std::function<Vec2(const Vec2&)> push = {};  ///< force on a node, by its place
 };
 
 inline double direction(const Vec2& d) {
@@ -86,6 +88,7 @@ inline std::vector<Vec2> accelerations(const PlanarRod& rod, const std::vector<V
     for (const std::size_t end : {e, e + 1})
       force[end] -= 0.25 * rod.air_density * rod.width[e] * length * drag;
   }
+  for (std::size_t i = 0; rod.push && i < p.size(); ++i) force[i] += rod.push(p[i]);
   std::vector<Vec2> out;
   for (std::size_t i = 0; i < p.size(); ++i)
     out.push_back(force[i] / rod.mass[i] + rod.gravity - rod.damping * v[i]);

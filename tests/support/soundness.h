@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "support/planar_truth.h"
 #include "support/rods.h"
 
 namespace tendril::test {
@@ -21,6 +22,7 @@ struct Trial {
   long work_limit = 300'000;                  ///< evaluations
   double tolerance = 1e-3, reference = 1e-6;  ///< of the run, of the better of the two references
   double length = 1.0;                        ///< that errors are relative to
+  std::function<PlanarRod()> planar = {};     ///< of a motion from rest in the plane x z: what it has to be
 };
 inline void PrintTo(const Trial& trial, std::ostream* out) {
   *out << trial.name;
@@ -66,7 +68,8 @@ inline double largest_gap(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return out;
 }
 
-/// RODAS at two tolerances: where they agree to the tolerance of the trial, the better is a reference.
+/// RODAS at two tolerances: where they agree to the tolerance of the trial, the better is a reference. Where
+/// the motion is planar, it is held to equations and an integration that share no code with the library.
 inline Eigen::VectorXd certified(const System& system, const Trial& trial) {
   const Outcome coarse = run(system, trial, Method::rodas, 10 * trial.reference, 100 * trial.work_limit);
   const Outcome fine = run(system, trial, Method::rodas, trial.reference, 100 * trial.work_limit);
@@ -75,6 +78,7 @@ inline Eigen::VectorXd certified(const System& system, const Trial& trial) {
   std::printf("  %-28s reference: %ld steps, agrees to %.1e\n", trial.name.c_str(), fine.report.accepted,
               gap);
   EXPECT_LT(gap, trial.tolerance) << "the reference is not certified";
+  if (trial.planar) expect_planar_motion(system, trial.planar(), fine.state, trial.tolerance);
   return fine.p(system);
 }
 
