@@ -12,17 +12,18 @@ struct ForceCheck {
   /// Largest error of the exact derivatives against central differences, over the largest derivative: some
   /// 1e-9 where they are right and the loads smooth. 0 where none are given.
   double derivatives = 0.0;
-  /// Largest error of force = -dE/dp, and of torque as -dE by a turn of the node's frame, against central
-  /// differences, over the largest load. 0 without an energy.
+  /// Largest error of force = -dE/dp, and of torque as -dE by a turn of the node's frame or the body, against
+  /// central differences, over the largest load. 0 without an energy.
   double energy = 0.0;
 };
 
-/// Moves each node's state a little and compares.
+/// Moves the state of each node and body a little and compares. Pairs count as in Force::couplings; torques
+/// on bodies count as forces at the longest edge, turns of bodies as ways there.
 /// \param force  the force to check
 /// \param state  any at which the force acts, with distinct neighbours; copied
-/// \param step   of the differences, over the longest edge, the largest speed (at least one edge a time unit)
-///               or 1 rad
-/// About 20 calls of add() a node.
+/// \param step   of the differences, over the longest edge (the length unit without rods), the largest speed
+///               (at least one edge a time unit) or 1 rad
+/// About 20 calls of add() a node, 30 a body.
 TENDRIL_CORE_API ForceCheck check_force(const Force& force, const StateView& state, double step = 1e-5);
 
 }  // namespace tendril

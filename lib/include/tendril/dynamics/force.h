@@ -2,56 +2,11 @@
 
 #include <tendril/base/export.h>
 #include <tendril/dynamics/couplings.h>
+#include <tendril/dynamics/loads.h>
 
-#include <limits>
 #include <memory>
-#include <span>
 
 namespace tendril {
-
-/// Nodes [first, first + count) of the flat arrays belong to one rod; edge i joins the nodes i and i + 1.
-struct NodeRange {
-  std::size_t first;  ///< flat index
-  std::size_t count;  ///< of nodes
-};
-
-/// What a force remembers from one accepted step to the next: the outcome of a broad phase, friction anchors.
-/// Derive. Never changed once made, and kept in the State: runs of one system side by side share none, and a
-/// copy of a state goes on as the state does.
-struct TENDRIL_CORE_API ForceMemory {
-  virtual ~ForceMemory() = default;
-};
-
-/// What a force may look at: the state of all rods on flat arrays, in the world frame.
-struct StateView {
-  double time;                    ///< [time]
-  Points p;                       ///< positions of the masses
-  Points v;                       ///< their velocities
-  Points t;                       ///< unit tangents
-  std::span<const double> spin;   ///< angular velocity about the tangent; 0 where the twist state is left out
-  std::span<const double> mass;   ///< per node
-  std::span<const double> width;  ///< per edge (index of its first node)
-  std::span<const NodeRange> rods;  ///< where the rods stand in the arrays
-  Points m = {};  ///< unit directors, across the tangents; zero vectors where the twist state is left out
-  const ForceMemory* memory = nullptr;  ///< what Force::remember gave last; null before and without
-};
-
-/// Where a force adds what it does: a force per node, and a torque per node as a world vector. The torque's
-/// part along the tangent drives the spin, the rest turns the tangent.
-struct Loads {
-  MutablePoints force;   ///< per node
-  MutablePoints torque;  ///< per node
-
-  /// Refuses the state, naming a node: a contact does where its gap is closed. The step that came here is
-  /// rejected and a shorter one tried; where steps are fixed, or none is short enough, the run stops as
-  /// Stop::not_evaluable.
-  void refuse(std::size_t node) const {
-    if (refused && *refused == kNone) *refused = node;
-  }
-  static constexpr std::size_t kNone =  ///< no node
-      std::numeric_limits<std::size_t>::max();
-  std::size_t* refused = nullptr;  ///< kNone at first; null where refusals are not asked for
-};
 
 /// An external force. Extension point: derive, say what it adds and what it couples, and hand it to the
 /// system. It must be pure in the state it is shown, its memory included (an adaptive step evaluates six
@@ -65,7 +20,14 @@ class TENDRIL_CORE_API Force {
 
   /// Which loads depend on which states, and their derivatives. Called once when a system is made, after
   /// check(). tendril/dynamics/check_force.h holds a force to what it says here.
+  ///
+  /// Flat indices count the n nodes, then two for every body: n + 2b stands for the place of body b and the
+  /// force on it, n + 2b + 1 for its turn and the torque on it about its centre of mass.
   virtual Couplings couplings(std::span<const NodeRange> rods) const = 0;
+
+  /// The same, for a force that has to know how many bodies there are; this one is called, and by default
+  /// calls couplings().
+  virtual Couplings couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const;
 
   /// Called once when a system is made: throws InvalidInput when the force names a rod or node that is not
   /// there.
@@ -76,10 +38,14 @@ class TENDRIL_CORE_API Force {
   virtual bool has_energy() const { return false; }
   virtual double energy(const StateView&) const { return 0.0; }  ///< at a state, in the scene's units
 
-  /// The acceleration a, when the loads are the mass of each node times a in every state and at all times,
-  /// and nothing else: such forces are summed once when a system is made, add() is not called, and their
-  /// energy is -sum m a . p.
+  /// The acceleration a, when the loads are the mass of each node and body times a in every state and at all
+  /// times, and nothing else: such forces are summed once when a system is made, add() is not called, and
+  /// their energy is -sum m a . p.
   virtual std::optional<Vec3> uniform_acceleration() const { return {}; }
+
+  /// True when add() may refuse a state. The state at which a step ends is then asked before it is accepted,
+  /// for an evaluation of those forces: explicit steps look at it only when they set out from it.
+  virtual bool refuses() const { return false; }
 
   /// False when the loads are the same at all times.
   virtual bool depends_on_time() const { return true; }

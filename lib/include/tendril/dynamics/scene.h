@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tendril/dynamics/anchor.h>
+#include <tendril/dynamics/body.h>
 #include <tendril/dynamics/force.h>
 #include <tendril/dynamics/joint.h>
 #include <tendril/dynamics/rod.h>
@@ -12,7 +13,7 @@ namespace tendril {
 
 /// What a scene is made of. Plain data; System checks it.
 struct Scene {
-  std::vector<Rod> rods;                             ///< at least one
+  std::vector<Rod> rods;                             ///< at least one, or a body
   std::vector<Anchor> anchors;                       ///< at most one a node
   std::vector<Joint> joints;                         ///< make trees of the rods
   std::vector<std::shared_ptr<const Force>> forces;  ///< none null
@@ -26,6 +27,7 @@ struct Scene {
     everywhere  ///< all rods
   };
   Twist twist = Twist::where_needed;  ///< how it is decided
+  std::vector<Body> bodies = {};      ///< free rigid bodies
 };
 
 }  // namespace tendril

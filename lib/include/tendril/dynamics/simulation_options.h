@@ -12,7 +12,9 @@ namespace tendril {
 /// How a run is controlled. Lengths, velocities, angles and spins have error scales of their own: the rods'
 /// length l, the largest speed so far (at least sqrt(a l), a the largest acceleration at the start), 1 rad,
 /// and speed / l. The speed of a mass lighter than half the mean of its rod counts by the square root of the
-/// ratio, for so much less energy it carries, but at least by a hundredth.
+/// ratio, for so much less energy it carries, but at least by a hundredth. Of bodies: the longest rod (where
+/// there is none, the largest body's radius of gyration), the same speed, 1 rad, and the speed over the
+/// body's own radius of gyration.
 struct SimulationOptions {
   Method method = Method::cash_karp;  ///< how steps are taken
   /// Makes a stepper of the caller's, instead of the method's. With a fixed step it may be any Stepper;

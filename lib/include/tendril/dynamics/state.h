@@ -9,12 +9,14 @@ namespace tendril {
 
 struct ForceMemory;
 
-/// The state of all rods: the integrated numbers y, and the frames they are measured against.
+/// The state of all rods and bodies: the integrated numbers y, and the frames they are measured against.
 ///
-/// y = (p 3n | v 3n | theta m | w m | work 1), n nodes, m of them with twist (all of a rod or none). theta_i
-/// is the angle of the director against `director[i]` carried from `tangent[i]` to the tangent by the
-/// smallest rotation; w_i the spin about the tangent; work that done so far by forces without an energy, by
-/// damping and by moving anchors.
+/// y = (p 3n | v 3n | theta m | w m | x 3k | phi 3k | u 3k | omega 3k | work 1), n nodes, m of them with
+/// twist (all of a rod or none), k free bodies. theta_i is the angle of the director against `director[i]`
+/// carried from `tangent[i]` to the tangent by the smallest rotation; w_i the spin about the tangent; x and u
+/// place and velocity of a centre of mass; phi the rotation vector from `rotation` to the body's rotation,
+/// exp([phi]) rotation, and omega its angular velocity, both in the world; work that done so far by forces
+/// without an energy, by damping and by moving anchors.
 ///
 /// Of a rod without twist state only one node's reference is kept (the last with a held frame, or the first):
 /// the others' directors follow it along the rod. System::frames has them all.
@@ -26,6 +28,7 @@ struct State {
   std::vector<double> twist;   ///< unwrapped twist of each edge at the reference [rad]
   /// What the scene's forces remember (System::remember); empty or null where nothing.
   std::vector<std::shared_ptr<const ForceMemory>> memory = {};
+  std::vector<Mat3> rotation = {};  ///< of each body at the reference, orthonormal; renewed with the tangents
 };
 
 /// Whether the equations could be evaluated, and if not, why and where.
@@ -35,19 +38,19 @@ struct Evaluation {
     ok,              ///< evaluated
     zero_edge,       ///< an edge of length 0
     fold_back,       ///< two opposite edges at a node: it has no tangent
-    turned_too_far,  ///< a tangent opposite to its reference: no smallest rotation between the two
+    turned_too_far,  ///< a tangent or a body turned by over 126 degrees from its reference
     not_finite,      ///< a number that overflowed, or was not finite to begin with
     not_converged,   ///< an implicit step's equations
     refused          ///< a force refused the state: Loads::refuse
   };
   Outcome outcome = Outcome::ok;                      ///< why
-  std::size_t node = 0;                               ///< where: flat index
+  std::size_t node = 0;                               ///< where: flat index; n + 2b or n + 2b + 1 is body b
   bool ok() const { return outcome == Outcome::ok; }  ///< whether results may be used
 };
 
 /// Energies in the scene's units. total() + work taken out is constant up to the integration error.
 struct Energies {
-  double kinetic = 0.0;                                           ///< of masses and spins
+  double kinetic = 0.0;                                           ///< of masses, spins and bodies
   double elastic = 0.0;                                           ///< of all springs
   double potential = 0.0;                                         ///< of the forces that have an energy
   double total() const { return kinetic + elastic + potential; }  ///< their sum

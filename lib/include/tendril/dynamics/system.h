@@ -19,7 +19,7 @@ namespace tendril {
 /// from several threads, each with its own Workspace.
 class TENDRIL_CORE_API System {
  public:
-  /// Throws InvalidInput naming rod, node and field ("rods[0].mass[3]").
+  /// Throws InvalidInput naming rod or body, node and field ("rods[0].mass[3]", "bodies[1].inertia").
   /// \param scene  copied
   /// \param from  anchors released at this time or before hold nothing; the layout of the state is that of
   ///              the whole scene whatever is released
@@ -38,11 +38,12 @@ class TENDRIL_CORE_API System {
   std::span<const NodeRange> rods() const;  ///< nodes of each rod
   std::size_t node_count() const;           ///< n
   std::size_t twist_count() const;          ///< nodes with a twist state
+  std::size_t body_count() const;           ///< k, free rigid bodies
   const Scene& scene() const;               ///< the copy
   /// What the scene did not need, one sentence each.
   const std::vector<std::string>& left_out() const;
 
-  /// All nodes at rest, anchors as at `time`.
+  /// All nodes at rest, anchors as at `time`, bodies as the scene says.
   State rest_state(double time = 0.0) const;
 
   /// dy/dt at (t, y). On failure dy is not to be used.
@@ -61,6 +62,17 @@ class TENDRIL_CORE_API System {
   /// their pose.
   Evaluation rebase(State& state, Workspace& work) const;
 
+  /// The bodies of a state, k of them.
+  std::vector<BodyView> bodies(const State& state) const;
+
+  /// Puts a body of a state elsewhere, or gives it another motion, as an impact does (Simulation::change).
+  /// The rotation is taken to the nearest one; the mass is not looked at.
+  void set_body(State& state, std::size_t body, const BodyView& to) const;
+
+  /// Asks the forces that may refuse a state (Force::refuses) whether they refuse this one. A Simulation does
+  /// so before it accepts a step; who drives a stepper does.
+  Evaluation refusal(const State& state, Workspace& work) const;
+
   /// Asks every force what to remember at a state (Force::remember), and counts as work what that changes in
   /// their energy. A Simulation does so at its start and after each accepted step; who drives a stepper does.
   /// True when something was remembered anew: then steppers restart.
@@ -73,7 +85,7 @@ class TENDRIL_CORE_API System {
   std::vector<Vec3> orientation_masses(const State& state, Workspace& work) const;
 
   /// Estimate of the largest frequency [rad / time] about the state: Lanczos's method [Lanczos 1950] on
-  /// M^-1 dF/dx with `vectors` evaluations.
+  /// M^-1 dF/dx with `vectors` evaluations; no less than that of the nutation of a body that spins.
   double largest_frequency(const State& state, int vectors, Workspace& work) const;
 
  private:

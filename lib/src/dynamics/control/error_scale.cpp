@@ -30,6 +30,32 @@ ErrorScale::ErrorScale(const System& system) : system_(system) {
     longest_ = std::max(longest_, rod_length_.back());
     add_shares(rod, speed_share_);
   }
+  for (const Body& body : system_.scene().bodies)
+    body_size_.push_back(std::sqrt(body.inertia.trace() / 3.0 / body.mass));
+  if (rod_length_.empty()) longest_ = *std::max_element(body_size_.begin(), body_size_.end());
+}
+
+/// The speed of a body's surface where it spins: that of its matter at a radius of gyration.
+void ErrorScale::see_bodies(const State& state) {
+  const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
+  const Eigen::Index u = state.y.size() - 1 - 2 * k;
+  for (Eigen::Index b = 0; b < k / 3; ++b)
+    see(state.y.segment<3>(u + 3 * b).norm() +
+        body_size_[static_cast<std::size_t>(b)] * state.y.segment<3>(u + k + 3 * b).norm());
+}
+
+double ErrorScale::norm_of_bodies(const Eigen::VectorXd& error, double speed) const {
+  const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
+  const Eigen::Index x = error.size() - 1 - 4 * k;
+  double largest = 0.0;
+  for (Eigen::Index b = 0; b < k / 3; ++b) {
+    const auto part = [&](Eigen::Index kind) {
+      return error.segment<3>(x + kind * k + 3 * b).cwiseAbs().maxCoeff();
+    };
+    largest = std::max({largest, part(0) / longest_, part(1), part(2) / speed,
+                        part(3) * body_size_[static_cast<std::size_t>(b)] / speed});
+  }
+  return largest;
 }
 
 void ErrorScale::see(const State& state) {
@@ -40,6 +66,7 @@ void ErrorScale::see(const State& state) {
     fastest = std::max(fastest, share * share * state.y.segment<3>(3 * n + 3 * i).squaredNorm());
   }
   see(std::sqrt(fastest));
+  see_bodies(state);
 }
 
 double ErrorScale::norm(const Eigen::VectorXd& error) const {
@@ -59,7 +86,7 @@ double ErrorScale::norm(const Eigen::VectorXd& error) const {
     largest = std::max(largest, error.segment(6 * n, m).cwiseAbs().maxCoeff());
     largest = std::max(largest, error.segment(6 * n + m, m).cwiseAbs().maxCoeff() * longest_ / speed);
   }
-  return largest;
+  return std::max(largest, norm_of_bodies(error, speed));
 }
 
 }  // namespace tendril

@@ -23,9 +23,13 @@ class ErrorScale {
   double longest() const { return longest_; }
 
  private:
+  void see_bodies(const State& state);
+  double norm_of_bodies(const Eigen::VectorXd& error, double speed) const;
+
   const System& system_;
   std::vector<double> rod_length_;
   std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
+  std::vector<double> body_size_;    ///< radius of gyration
   double longest_ = 0.0, speed_ = 0.0;
 };
 

@@ -24,6 +24,7 @@ void Guard::measure(const State& state, double duration, System::Workspace& work
   double alpha = std::numeric_limits<double>::infinity();
   double beta = alpha;
   double most_beta = 0.0;
+  if (system_.body_count() > 0) alpha = beta = 0.0;
   for (const Rod& rod : system_.scene().rods) {
     alpha = std::min(alpha, rod.mass_damping);
     beta = std::min(beta, rod.viscosity);

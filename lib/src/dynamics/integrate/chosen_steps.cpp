@@ -100,7 +100,7 @@ bool ChosenSteps::step_towards(double target) {
     if (!(state_.time + h > state_.time)) return jump(at, last);
     last = stepper_->step(state_, h, y_, error_);
     const double error = last.ok() ? scale_.norm(error_) / options_.tolerance : 0.0;
-    if (last.ok() && error <= 1.0 && renew(at, last)) {
+    if (last.ok() && error <= 1.0 && renew(at, state_.time + h, last)) {
       accept(at, error);
       return !ended_;
     }
@@ -120,15 +120,19 @@ bool ChosenSteps::jump(const Aim& aim, const Evaluation& last) {
   return false;
 }
 
-/// The state at the step's end with frames of its own; false when it has none.
-bool ChosenSteps::renew(const Aim& aim, Evaluation& last) {
+/// The state at the step's end with frames of its own; false when it has none, or a force refuses it.
+bool ChosenSteps::renew(const Aim& aim, double end, Evaluation& last) {
   next_.y.swap(y_);
   next_.tangent = state_.tangent;
   next_.director = state_.director;
   next_.twist = state_.twist;
   next_.memory = state_.memory;
+  next_.rotation = state_.rotation;
   next_.time = aim.time;
   last = system_.rebase(next_, workspace());
+  next_.time = end;
+  if (last.ok()) last = asks(next_);
+  next_.time = aim.time;
   if (last.ok()) std::swap(state_, next_);
   return last.ok();
 }

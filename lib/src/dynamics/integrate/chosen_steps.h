@@ -37,7 +37,8 @@ class ChosenSteps : public Controller {
   double longest_step() const;
   Aim aim(double target) const;
   bool jump(const Aim& aim, const Evaluation& last);
-  bool renew(const Aim& aim, Evaluation& last);
+  /// \param end  of the step as its stages saw it
+  bool renew(const Aim& aim, double end, Evaluation& last);
   void accept(const Aim& aim, double error);
   bool reject(const Aim& aim, std::optional<double> error, const Evaluation& why);
   void stop_without_step(const Evaluation& why);

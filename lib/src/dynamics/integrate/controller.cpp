@@ -9,6 +9,7 @@
 
 #include "automatic.h"
 #include "chosen_steps.h"
+#include "dynamics/scene/model.h"
 #include "dynamics/scene/words.h"
 #include "fixed_steps.h"
 
@@ -30,6 +31,7 @@ Controller::Controller(const System& system, State start, const SimulationOption
       until_(state_.time),
       start_(state_.time),
       energy_(system, *work_, state_) {
+  for (const auto& force : system_.scene().forces) may_be_refused_ = may_be_refused_ || force->refuses();
   report_.method = stepper.name();
   report_.guard_step = std::numeric_limits<double>::infinity();
   energy_.scale_at_least(measure_scales());
@@ -50,6 +52,12 @@ double Controller::measure_scales() {
         mass += m;
         i += 3;
       }
+  }
+  const Eigen::Index u = state_.y.size() - 1 - 6 * static_cast<Eigen::Index>(system_.body_count());
+  for (std::size_t b = 0; b < system_.body_count(); ++b) {
+    const double m = system_.scene().bodies[b].mass;
+    if (dy.size() > 0) moved += m * dy.segment<3>(u + 3 * static_cast<Eigen::Index>(b)).norm();
+    mass += m;
   }
   scale_.see(state_);
   if (mass > 0.0) scale_.see(std::sqrt(moved / mass * scale_.longest()));
@@ -133,9 +141,13 @@ void Controller::stop(Stop why, std::string reason) {
 }
 
 std::string Controller::name_of(std::size_t node) const {
-  std::size_t rod = 0;
-  while (rod + 1 < system_.rods().size() && node >= system_.rods()[rod + 1].first) ++rod;
-  return sentence("rod ", rod, " node ", node - system_.rods()[rod].first);
+  return name_of_index(model_of(system_), node);
+}
+
+Evaluation Controller::asks(const State& state) {
+  if (!may_be_refused_) return {};
+  ++other_evaluations_;
+  return system_.refusal(state, workspace());
 }
 
 Report Controller::report() {

@@ -55,6 +55,8 @@ class Controller {
   virtual void begin_anew() { restart_stepper(); }
   void stop(Stop why, std::string reason);
   std::string name_of(std::size_t node) const;
+  /// Whether the forces that may refuse a state let a step end there.
+  Evaluation asks(const State& state);
 
   const System& system_;
   SimulationOptions options_;
@@ -77,6 +79,7 @@ class Controller {
   void remember();
 
   EnergyBalance energy_;
+  bool may_be_refused_ = false;
 };
 
 /// A run as the options ask for it.

@@ -61,7 +61,8 @@ Aim FixedSteps::aim(double target) const {
 
 bool FixedSteps::advance(double h) {
   next_ = state_;
-  const Evaluation result = stepper_->advance(next_, h);
+  Evaluation result = stepper_->advance(next_, h);
+  if (result.ok()) result = asks(next_);
   if (!result.ok()) {
     const bool at_a_node = result.outcome != Evaluation::Outcome::not_converged;
     stop(Stop::not_evaluable, sentence("at time ", state_.time, at_a_node ? ", " + name_of(result.node) : "",

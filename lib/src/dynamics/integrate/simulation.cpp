@@ -8,6 +8,7 @@
 
 #include "controller.h"
 #include "dynamics/coupling/elimination.h"
+#include "dynamics/scene/model.h"
 #include "dynamics/scene/words.h"
 
 namespace tendril {
@@ -40,16 +41,19 @@ void check(const SimulationOptions& options) {
 /// the masses.
 void check_state(const char* name, const System& system, const State& state, System::Workspace& work) {
   const auto nodes = static_cast<std::size_t>(system.node_count());
-  const auto size = static_cast<Eigen::Index>(6 * nodes + 2 * system.twist_count() + 1);
+  const std::size_t bodies = system.body_count();
+  const auto size = static_cast<Eigen::Index>(6 * nodes + 2 * system.twist_count() + 12 * bodies + 1);
   if (state.y.size() != size || state.tangent.size() != nodes || state.director.size() != nodes ||
-      state.twist.size() != nodes)
+      state.twist.size() != nodes || state.rotation.size() != bodies)
     throw InvalidInput(name, "a state of other sizes", "one made by System::rest_state");
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (!is_rotation(state.rotation[b]))
+      throw InvalidInput(sentence(name, ": rotation[", b, "]"), "not orthonormal, or mirrored",
+                         "a rotation to 1e-9");
   Eigen::VectorXd rate;
   const Evaluation at = system.derivative(state, state.time, state.y, rate, work);
   if (at.ok() && state.y.allFinite()) return;
-  std::size_t rod = 0;
-  while (rod + 1 < system.rods().size() && at.node >= system.rods()[rod + 1].first) ++rod;
-  throw InvalidInput(sentence(name, ": rod ", rod, " node ", at.node - system.rods()[rod].first),
+  throw InvalidInput(sentence(name, ": ", name_of_index(model_of(system), at.node)),
                      describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
                      "a state at which the equations can be evaluated");
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "dynamics/body/bodies.h"
 #include "dynamics/vector/column_access.h"
 #include "elastic.h"
 #include "kinematics.h"
@@ -21,19 +22,25 @@ StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns&
     loads.m[i] = model.has_twist(i) ? kin.frame.y[i] : Vec3(Vec3::Zero());
     loads.spin[i] = kin.spin[i];
   }
-  return {t, loads.p, loads.v, loads.t, loads.spin, model.mass, model.width, model.rods, loads.m};
+  return {t,           loads.p,    loads.v, loads.t, loads.spin, model.mass,
+          model.width, model.rods, loads.m, nullptr, kin.bodies};
 }
 
 Loads no_loads(const Kinematics& kin, LoadColumns& loads) {
   loads.made.from(kin);
   std::fill(loads.load.begin(), loads.load.end(), Vec3::Zero());
   std::fill(loads.torque.begin(), loads.torque.end(), Vec3::Zero());
-  return {loads.load, loads.torque};
+  std::fill(loads.on_bodies.begin(), loads.on_bodies.end(), Wrench{});
+  return {loads.load, loads.torque, nullptr, loads.on_bodies};
 }
 
 namespace {
 
 using Outcome = Evaluation::Outcome;
+
+Evaluation outcome_of(std::size_t refused) {
+  return refused == Loads::kNone ? Evaluation{} : Evaluation{Outcome::refused, refused};
+}
 
 /// Puts the acting forces into the loads, and into the total the power of those without an energy. Stops
 /// where one refuses the state.
@@ -56,9 +63,10 @@ Evaluation add_external(const Model& model, const State& reference, double t, co
     const Vec3 turning = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
     power += loads.load[i].dot(loads.v[i]) + loads.torque[i].dot(turning);
   }
+  power += power_on_bodies(kin.bodies, loads.on_bodies);
   add(true);
   total += power;
-  return refused == Loads::kNone ? Evaluation{} : Evaluation{Outcome::refused, refused};
+  return outcome_of(refused);
 }
 
 /// Torques across the tangent act through the tangent; see pull_back.
@@ -224,8 +232,27 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
         turn(model, s, kin, grad, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
   }
   if (model.loaded) finite &= add_spin_torques(model, loads, dy);
+  if (!model.bodies.empty()) finite &= body_rates(model, y, kin.bodies, loads.on_bodies, dy);
   dy[model.work_index()] = power;
   return finite ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
+}
+
+Evaluation refusal(const Model& model, const State& state, System::Workspace& work) {
+  const auto asked = [](const Model::Acting& acting) { return acting.refuses; };
+  if (std::none_of(model.acting.begin(), model.acting.end(), asked)) return {};
+  if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::all, work.kinematics);
+      !at.ok())
+    return at;
+  StateView seen = view(model, state.time, work.kinematics, work.loads);
+  Loads to = no_loads(work.kinematics, work.loads);
+  std::size_t refused = Loads::kNone;
+  to.refused = &refused;
+  for (const Model::Acting& acting : model.acting) {
+    if (!acting.refuses) continue;
+    seen.memory = memory_of(acting, state);
+    acting.force->add(seen, to);
+  }
+  return outcome_of(refused);
 }
 
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
@@ -243,7 +270,7 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
     state.memory = memory_of(acting, reference);
     acting.force->add(state, to);
   }
-  if (refused != Loads::kNone) return {Outcome::refused, refused};
+  if (const Evaluation at = outcome_of(refused); !at.ok()) return at;
   add_torques(model, loads, grad);
   pull_back(model, kin, grad, loads, pull);
   out.setZero(model.size());
@@ -252,6 +279,7 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
     if (model.has_twist(i))
       out[model.spin_begin() + model.twist_index[i]] = loads.torque[i].dot(loads.t[i]) - grad.spin[i];
   }
+  put_body_loads(model, loads.on_bodies, out);
   return {};
 }
 

@@ -14,6 +14,9 @@ StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns&
 /// Loads for forces to add to, set to zero.
 Loads no_loads(const Kinematics& kin, LoadColumns& loads);
 
+/// Whether a force that may do so refuses a state.
+Evaluation refusal(const Model& model, const State& state, System::Workspace& work);
+
 /// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
 /// and do not give their derivatives; everything else is 0.
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,

@@ -9,6 +9,8 @@ System::Workspace::Workspace(const System::Model& model) {
   Kinematics& k = kinematics;
   Gradient& g = gradient;
   k.pose.resize(model.anchors.size());
+  k.bodies.resize(model.bodies.size());
+  loads.on_bodies.resize(model.bodies.size());
   // Columns that a loop walks along side by side get neighbouring ranks.
   std::size_t rank = 0;
   for (auto* vectors : {&k.p, &k.v, &k.frame.y, &k.frame.z, &k.e, &k.rate.e_rate, &k.rate.turning, &g.bend,

@@ -22,6 +22,7 @@ struct Kinematics {
   Column length, inverse_length;
   Column inverse_bisector;  ///< of the unit edges' sum; 0 where the frame is held
   Column spin;
+  std::vector<BodyView> bodies;  ///< whole with the positions
 
   struct Rates {
     Columns3 e_rate;
@@ -68,6 +69,7 @@ struct LoadColumns {
   std::vector<Vec3> p, v, t, m;
   std::vector<double> spin;
   std::vector<Vec3> load, torque;
+  std::vector<Wrench> on_bodies;  ///< there also without forces, for the bodies' rates
   Made made;
 };
 

@@ -18,30 +18,47 @@ struct Movable {
         v(view.v.begin(), view.v.end()),
         t(view.t.begin(), view.t.end()),
         m(view.m.begin(), view.m.end()),
-        spin(view.spin.begin(), view.spin.end()) {
+        spin(view.spin.begin(), view.spin.end()),
+        bodies(view.bodies.begin(), view.bodies.end()) {
     seen.p = p;
     seen.v = v;
     seen.t = t;
     seen.m = m;
     seen.spin = spin;
+    seen.bodies = bodies;
     for (const NodeRange& rod : view.rods)
       for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i)
         length = std::max(length, (p[i + 1] - p[i]).norm());
+    if (view.rods.empty()) length = 1.0;
     speed = length;
     for (const Vec3& one : v) speed = std::max(speed, one.norm());
+    for (const BodyView& body : bodies) speed = std::max(speed, body.velocity.norm());
   }
+  std::size_t indices() const { return p.size() + 2 * bodies.size(); }
 
   StateView seen;
   Vectors p, v, t, m;
   std::vector<double> spin;
+  std::vector<BodyView> bodies;
   double length = 0.0, speed = 0.0;
 };
 
 struct Load {
-  Load(const Force& of, const StateView& at) : force(at.p.size(), Vec3::Zero()), torque(force) {
-    of.add(at, {force, torque});
+  Load(const Force& of, const StateView& at)
+      : force(at.p.size(), Vec3::Zero()), torque(force), bodies(at.bodies.size()) {
+    of.add(at, {force, torque, nullptr, bodies});
+  }
+  /// What the derivatives of a flat index are of.
+  const Vec3& main(std::size_t i) const {
+    if (i < force.size()) return force[i];
+    const Wrench& on = bodies[(i - force.size()) / 2];
+    return (i - force.size()) % 2 == 0 ? on.force : on.torque;
+  }
+  bool differs(std::size_t i, const Load& other) const {
+    return main(i) != other.main(i) || (i < torque.size() && torque[i] != other.torque[i]);
   }
   Vectors force, torque;
+  std::vector<Wrench> bodies;
 };
 
 class Check {
@@ -51,7 +68,7 @@ class Check {
         at_(view),
         step_(step),
         base_(force, at_.seen),
-        couplings_(force.couplings(view.rods)) {
+        couplings_(force.couplings_with_bodies(view.rods, view.bodies.size())) {
     for (const auto& [a, b] : couplings_.pairs()) {
       named_.emplace(a, b);
       named_.emplace(b, a);
@@ -65,8 +82,8 @@ class Check {
     gather();
     for (std::size_t j = 0; j < at_.p.size(); ++j) {
       for (int axis = 0; axis < 3; ++axis) {
-        compare(j, axis, at_.p[j], step_ * at_.length, by_p_);
-        compare(j, axis, at_.v[j], step_ * at_.speed, by_v_);
+        compare(j, axis, at_.p[j], at_.length, by_p_);
+        compare(j, axis, at_.v[j], at_.speed, by_v_);
         note_frame(j, Vec3::Unit(axis));
       }
       at_.spin[j] += step_;
@@ -74,6 +91,7 @@ class Check {
       at_.spin[j] -= step_;
       if (force_.has_energy()) compare_energy(j);
     }
+    for (std::size_t b = 0; b < at_.bodies.size(); ++b) compare_body(b);
     if (derivative_ > 0.0) out_.derivatives = error_ / derivative_;
     if (load_ > 0.0) out_.energy = energy_error_ / load_;
     for (const auto& pair : found_) out_.undeclared.push_back(pair);
@@ -93,42 +111,99 @@ class Check {
   };
 
   void gather() {
-    const auto size = 3 * static_cast<Eigen::Index>(at_.p.size());
+    const auto size = 3 * static_cast<Eigen::Index>(at_.indices());
     by_p_ = by_v_ = Matrix::Zero(size, size);
     if (!couplings_.derivatives()) return;
     Gathered gathered(by_p_, by_v_);
     couplings_.derivatives()(at_.seen, gathered);
-    derivative_ = std::max(by_p_.cwiseAbs().maxCoeff() * at_.length, by_v_.cwiseAbs().maxCoeff() * at_.speed);
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (Eigen::Index j = 0; j < size; ++j) {
+        const double arm = arm_of(j / 3) / arm_of(i / 3);
+        derivative_ = std::max(
+            {derivative_, std::abs(by_p_(i, j)) * arm * at_.length, std::abs(by_v_(i, j)) * arm * at_.speed});
+      }
+  }
+
+  /// What makes an angle a way over the longest edge, and a torque a force.
+  double arm_of(Eigen::Index index) const {
+    const auto n = static_cast<Eigen::Index>(at_.p.size());
+    return index < n || (index - n) % 2 == 0 ? 1.0 : at_.length;
   }
 
   bool named(std::size_t i, std::size_t j) const {
-    if (couplings_.reach() && rod_of_[i] == rod_of_[j] && (i > j ? i - j : j - i) <= *couplings_.reach())
+    if (couplings_.reach() && std::max(i, j) < rod_of_.size() && rod_of_[i] == rod_of_[j] &&
+        (i > j ? i - j : j - i) <= *couplings_.reach())
       return true;
     return named_.count({i, j}) > 0;
   }
 
   void note(std::size_t j, const Load& moved) {
-    for (std::size_t i = 0; i < at_.p.size(); ++i)
-      if (!named(i, j) && (moved.force[i] != base_.force[i] || moved.torque[i] != base_.torque[i]))
-        found_.emplace(i, j);
+    for (std::size_t i = 0; i < at_.indices(); ++i)
+      if (!named(i, j) && moved.differs(i, base_)) found_.emplace(i, j);
   }
 
-  void compare(std::size_t j, int axis, Vec3& moved, double h, const Matrix& exact) {
+  void compare(std::size_t j, int axis, Vec3& moved, double scale, const Matrix& exact) {
     const double at = moved[axis];
-    moved[axis] = at + h;
+    compare(j, axis, scale, exact, [&](double h) { moved[axis] = at + h; });
+  }
+
+  /// Compares around a state that `move` moves by a number, back with 0.
+  template <typename Move>
+  void compare(std::size_t j, int axis, double scale, const Matrix& exact, const Move& move) {
+    const double h = step_ * scale;
+    move(h);
     const Load up(force_, at_.seen);
-    moved[axis] = at - h;
+    move(-h);
     const Load down(force_, at_.seen);
-    moved[axis] = at;
+    move(0.0);
     note(j, up);
     note(j, down);
     if (!couplings_.derivatives()) return;
-    const double scale = h / step_;
-    for (std::size_t i = 0; i < at_.p.size(); ++i) {
-      const Vec3 given =
-          exact.block<3, 1>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j) + axis);
-      error_ = std::max(error_, ((up.force[i] - down.force[i]) / (2 * h) - given).norm() * scale);
+    for (std::size_t i = 0; i < at_.indices(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const Vec3 given = exact.block<3, 1>(3 * row, 3 * static_cast<Eigen::Index>(j) + axis);
+      error_ = std::max(error_, ((up.main(i) - down.main(i)) / (2 * h) - given).norm() * scale / arm_of(row));
     }
+  }
+
+  /// A body is moved, turned, and its motions are.
+  void compare_body(std::size_t b) {
+    BodyView& body = at_.bodies[b];
+    const std::size_t place = at_.p.size() + 2 * b;
+    load_ = std::max({load_, base_.bodies[b].force.norm(), base_.bodies[b].torque.norm() / at_.length});
+    for (int axis = 0; axis < 3; ++axis) {
+      const Mat3 rotation = body.rotation;
+      const auto turn = [&](double angle) {
+        body.rotation = angle == 0.0 ? rotation : turned_by(Vec3::Unit(axis), angle, rotation);
+      };
+      const double x = body.position[axis];
+      const auto shift = [&](double way) { body.position[axis] = x + way; };
+      compare(place, axis, at_.length, by_p_, shift);
+      compare(place, axis, body.velocity, at_.speed, by_v_);
+      compare(place + 1, axis, 1.0, by_p_, turn);
+      compare(place + 1, axis, body.spin, at_.speed / at_.length, by_v_);
+      if (!force_.has_energy()) continue;
+      compare_energy(shift, at_.length, base_.bodies[b].force[axis]);
+      compare_energy(turn, 1.0, base_.bodies[b].torque[axis]);
+    }
+  }
+
+  static Mat3 turned_by(const Vec3& axis, double angle, const Mat3& of) {
+    Mat3 turned;
+    for (int c = 0; c < 3; ++c) turned.col(c) = rotate_about(axis, angle, of.col(c));
+    return turned;
+  }
+
+  /// Holds -dE by a move against the load that does work on it.
+  template <typename Move>
+  void compare_energy(const Move& move, double scale, double load) {
+    move(step_ * scale);
+    const double up = force_.energy(at_.seen);
+    move(-step_ * scale);
+    const double down = force_.energy(at_.seen);
+    move(0.0);
+    energy_error_ =
+        std::max(energy_error_, std::abs((up - down) / (2 * step_ * scale) + load) * scale / at_.length);
   }
 
   /// Calls with the frame of a node turned about an axis by an angle.

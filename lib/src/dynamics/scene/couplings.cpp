@@ -1,4 +1,4 @@
-#include <tendril/dynamics/couplings.h>
+#include <tendril/dynamics/force.h>
 
 namespace tendril {
 
@@ -19,6 +19,10 @@ Couplings Couplings::among(const std::vector<std::size_t>& nodes) {
   for (std::size_t a = 0; a < nodes.size(); ++a)
     for (std::size_t b = a; b < nodes.size(); ++b) all.pairs_.emplace_back(nodes[a], nodes[b]);
   return all;
+}
+
+Couplings Force::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t) const {
+  return couplings(rods);
 }
 
 Couplings Couplings::with(Derivatives derivatives) && {

@@ -45,11 +45,13 @@ Gravity::Gravity(const Vec3& acceleration) : g_(finite("gravity", acceleration))
 
 void Gravity::add(const StateView& state, const Loads& loads) const {
   for (std::size_t i = 0; i < state.p.size(); ++i) loads.force[i] += state.mass[i] * g_;
+  for (std::size_t b = 0; b < loads.bodies.size(); ++b) loads.bodies[b].force += state.bodies[b].mass * g_;
 }
 
 double Gravity::energy(const StateView& state) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < state.p.size(); ++i) sum -= state.mass[i] * g_.dot(state.p[i]);
+  for (const BodyView& body : state.bodies) sum -= body.mass * g_.dot(body.position);
   return sum;
 }
 

@@ -59,6 +59,13 @@ constexpr double kStraight = 1e-9;      // rest angle below which a node counts 
 
 }  // namespace
 
+std::string name_of_index(const Model& model, std::size_t index) {
+  if (index >= model.nodes) return "body " + std::to_string((index - model.nodes) / 2);
+  std::size_t rod = 0;
+  while (index >= model.rods[rod].first + model.rods[rod].count) ++rod;
+  return "rod " + std::to_string(rod) + " node " + std::to_string(index - model.rods[rod].first);
+}
+
 std::string name_of_force(std::size_t index) {
   return "forces[" + std::to_string(index) + "]";
 }
@@ -83,7 +90,8 @@ double twist_angle(const Frame& before, const Frame& after) {
 }
 
 Model::Model(Scene description, double since) : scene(std::move(description)), from(since) {
-  if (scene.rods.empty()) throw InvalidInput("rods", "none", "at least one");
+  if (scene.rods.empty() && scene.bodies.empty()) throw InvalidInput("rods", "none", "at least one");
+  bodies = checked_bodies(scene.bodies);
   for (std::size_t r = 0; r < scene.rods.size(); ++r) {
     check_rod(scene.rods[r], r);
     flatten(scene.rods[r]);
@@ -226,9 +234,9 @@ void Model::sort_rods() {
       sorted.push_back(*ride);
     }
   rides = std::move(sorted);
-  carrier.resize(nodes);
+  carrier.resize(index_count());
   std::iota(carrier.begin(), carrier.end(), std::size_t{0});
-  feels.assign(nodes, 1);
+  feels.assign(index_count(), 1);
   for (const Ride& ride : rides) {
     carrier[ride.root] = carrier[ride.parent];
     feels[ride.root] = feels[ride.parent] != 0 && ride.reaction;
@@ -303,17 +311,18 @@ void Model::choose_forces() {
     if (const std::optional<Vec3> a = force->uniform_acceleration())
       gravity += *a;
     else
-      acting.push_back({force.get(), f, force->has_energy(), couplings_of(f)});
+      acting.push_back({force.get(), f, force->has_energy(), force->refuses(), couplings_of(f)});
   }
   loaded = !acting.empty();
 }
 
 Couplings Model::couplings_of(std::size_t force) const {
-  Couplings couplings = scene.forces[force]->couplings(rods);
+  Couplings couplings = scene.forces[force]->couplings_with_bodies(rods, bodies.size());
   for (const auto& [a, b] : couplings.pairs())
-    if (std::max(a, b) >= nodes)
+    if (std::max(a, b) >= index_count())
       throw InvalidInput(name_of_force(force), "couples node " + std::to_string(std::max(a, b)),
-                         "flat indices less than the " + std::to_string(nodes) + " nodes");
+                         "flat indices less than the " + std::to_string(nodes) + " nodes" +
+                             (bodies.empty() ? "" : " and two a body"));
   return couplings;
 }
 

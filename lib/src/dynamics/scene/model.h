@@ -6,6 +6,7 @@
 
 #include "access.h"
 #include "dynamics/vector/columns.h"
+#include "rigid_body.h"
 
 namespace tendril {
 
@@ -23,6 +24,7 @@ struct System::Model {
   std::vector<std::string> left_out;
   std::size_t nodes = 0;
   std::size_t twist_nodes = 0;
+  std::vector<RigidBody> bodies;
 
   // Per node.
   std::vector<Vec3> rest_p;
@@ -52,7 +54,7 @@ struct System::Model {
   std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
   std::vector<Ride> rides;      ///< parents before their children
   /// Per node: the node that its place and frame move with (itself where it rides on none), and whether that
-  /// one feels it.
+  /// one feels it. Then the same for the places and turns of the bodies, which ride on nothing.
   std::vector<std::size_t> carrier;
   std::vector<char> feels;
 
@@ -83,6 +85,7 @@ struct System::Model {
     const Force* force;
     std::size_t index;  ///< in the scene
     bool has_energy;
+    bool refuses;
     Couplings couplings;
 
     bool by_differences() const { return couplings.any() && !couplings.derivatives(); }
@@ -104,6 +107,9 @@ struct System::Model {
     return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
   }
 
+  /// Flat indices of nodes, and of the places and turns of bodies.
+  std::size_t index_count() const { return nodes + 2 * bodies.size(); }
+
   /// Per node, the number of its rod.
   std::vector<std::size_t> rods_of_nodes() const;
 
@@ -111,7 +117,9 @@ struct System::Model {
   Eigen::Index v_begin() const { return 3 * static_cast<Eigen::Index>(nodes); }
   Eigen::Index theta_begin() const { return 6 * static_cast<Eigen::Index>(nodes); }
   Eigen::Index spin_begin() const { return theta_begin() + static_cast<Eigen::Index>(twist_nodes); }
-  Eigen::Index work_index() const { return spin_begin() + static_cast<Eigen::Index>(twist_nodes); }
+  Eigen::Index x_begin() const { return spin_begin() + static_cast<Eigen::Index>(twist_nodes); }
+  Eigen::Index bodies_span() const { return 3 * static_cast<Eigen::Index>(bodies.size()); }
+  Eigen::Index work_index() const { return x_begin() + 4 * bodies_span(); }
   Eigen::Index size() const { return work_index() + 1; }
 
  private:
@@ -132,6 +140,9 @@ struct System::Model {
 inline const ForceMemory* memory_of(const Model::Acting& acting, const State& state) {
   return acting.index < state.memory.size() ? state.memory[acting.index].get() : nullptr;
 }
+
+/// The name of a flat index in what is refused: "rod 0 node 3", "body 1".
+std::string name_of_index(const Model& model, std::size_t index);
 
 /// The name of a force of the scene in what is refused.
 std::string name_of_force(std::size_t index);

@@ -11,7 +11,7 @@ const char* describe(Evaluation::Outcome outcome) {
     case Evaluation::Outcome::fold_back:
       return "edges folded back on each other";
     case Evaluation::Outcome::turned_too_far:
-      return "tangent turned more than 126 degrees";
+      return "tangent or body turned more than 126 degrees";
     case Evaluation::Outcome::not_finite:
       return "a number that is not finite";
     case Evaluation::Outcome::not_converged:

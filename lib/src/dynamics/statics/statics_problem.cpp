@@ -1,5 +1,6 @@
 #include "statics_problem.h"
 
+#include <tendril/base/error.h>
 #include <tendril/dynamics/stiffness.h>
 
 #include <algorithm>
@@ -8,9 +9,20 @@
 #include "dynamics/scene/model.h"
 
 namespace tendril {
+namespace {
+
+/// Nothing holds a free body: it comes to rest nowhere but by chance.
+const System& without_bodies(const System& system) {
+  if (system.body_count() > 0)
+    throw InvalidInput("bodies", std::to_string(system.body_count()) + " free bodies",
+                       "a scene of rods alone: a body that nothing holds has no equilibrium to be found");
+  return system;
+}
+
+}  // namespace
 
 StaticProblem::StaticProblem(const System& system)
-    : system_(system),
+    : system_(without_bodies(system)),
       work_(system.make_workspace()),
       coordinates_(system),
       loads_(system, coordinates_),

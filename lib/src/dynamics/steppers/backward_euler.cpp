@@ -10,13 +10,16 @@
 namespace tendril {
 namespace {
 
-constexpr double kConverged = 1e-9;   // what a correction moves in the step, in shortest edges or radians
+constexpr double kConverged = 1e-9;   // what a correction moves in the step, in shortest lengths or radians
 constexpr double kDifference = 1e-7;  // of the matrix, likewise
 constexpr int kMatrices = 12;
 constexpr int kIterations = 12;  // on one matrix
 
-double shortest_edge(const System& system) {
+/// Of the bodies, the radius of gyration counts.
+double shortest_length(const System& system) {
   double shortest = std::numeric_limits<double>::infinity();
+  for (const Body& body : system.scene().bodies)
+    shortest = std::min(shortest, std::sqrt(body.inertia.trace() / 3.0 / body.mass));
   for (const Rod& rod : system.scene().rods)
     for (std::size_t i = 0; i + 1 < rod.p.size(); ++i)
       shortest = std::min(shortest, (rod.p[i + 1] - rod.p[i]).norm());
@@ -31,9 +34,10 @@ struct BackwardEuler::Implementation {
         work(s.make_workspace()),
         moved(3 * static_cast<Eigen::Index>(s.node_count())),
         turned(static_cast<Eigen::Index>(s.twist_count())),
-        scale(moved + turned) {
-    scale.head(moved).setConstant(shortest_edge(s));
-    scale.tail(turned).setConstant(1.0);
+        bodies(3 * static_cast<Eigen::Index>(s.body_count())),
+        scale(Eigen::VectorXd::Constant(moved + turned + 2 * bodies, 1.0)) {
+    scale.head(moved).setConstant(shortest_length(s));
+    scale.segment(moved + turned, bodies).setConstant(shortest_length(s));
   }
 
   void assemble(const State& from, double h, const Eigen::VectorXd& z);
@@ -46,8 +50,8 @@ struct BackwardEuler::Implementation {
 
   const System& system;
   System::WorkspacePtr work;
-  Eigen::Index moved, turned;  ///< 3n, m
-  Eigen::VectorXd scale;       ///< per unknown: shortest edge, or 1 rad
+  Eigen::Index moved, turned, bodies;  ///< 3n, m, 3k
+  Eigen::VectorXd scale;               ///< per unknown: shortest length, or 1 rad
   Eigen::VectorXd rate, y, start;
   Eigen::PartialPivLU<Eigen::MatrixXd> matrix;
   std::optional<double> matrix_step;  ///< the step the matrix was made for
@@ -69,13 +73,18 @@ long BackwardEuler::evaluations() const {
   return self_->evaluations;
 }
 
-/// The state that velocities and spins z lead to.
+/// The state that velocities and spins z = (v | w | u | omega) lead to.
 void BackwardEuler::Implementation::assemble(const State& from, double h, const Eigen::VectorXd& z) {
   y = from.y;
   y.head(moved) += h * z.head(moved);
   y.segment(moved, moved) = z.head(moved);
-  y.segment(2 * moved, turned) = h * z.tail(turned);
-  y.segment(2 * moved + turned, turned) = z.tail(turned);
+  y.segment(2 * moved, turned) = h * z.segment(moved, turned);
+  y.segment(2 * moved + turned, turned) = z.segment(moved, turned);
+  // About its spin at the step's end a body turns by h omega: there phi' = omega.
+  const Eigen::Index x = 2 * (moved + turned);
+  y.segment(x, bodies) += h * z.segment(moved + turned, bodies);
+  y.segment(x + bodies, bodies) = h * z.tail(bodies);
+  y.segment(x + 2 * bodies, 2 * bodies) = z.tail(2 * bodies);
 }
 
 /// z - z_start - h z'(z); leaves y and rate at z.
@@ -87,7 +96,8 @@ Evaluation BackwardEuler::Implementation::defect(const State& from, double h, co
   if (!at.ok()) return at;
   out = z - start;
   out.head(moved) -= h * rate.segment(moved, moved);
-  out.tail(turned) -= h * rate.segment(2 * moved + turned, turned);
+  out.segment(moved, turned) -= h * rate.segment(2 * moved + turned, turned);
+  out.tail(2 * bodies) -= h * rate.segment(2 * (moved + turned + bodies), 2 * bodies);
   return at;
 }
 
@@ -127,8 +137,9 @@ bool BackwardEuler::Implementation::iterate(const State& from, double h, Eigen::
 }
 
 Evaluation BackwardEuler::Implementation::advance(State& state, double h) {
-  start.resize(moved + turned);
-  start << state.y.segment(moved, moved), state.y.segment(2 * moved + turned, turned);
+  start.resize(moved + turned + 2 * bodies);
+  start << state.y.segment(moved, moved), state.y.segment(2 * moved + turned, turned),
+      state.y.segment(2 * (moved + turned + bodies), 2 * bodies);
   Eigen::VectorXd z = start;
   Evaluation at;
   for (int matrices = 0; matrices < kMatrices; ++matrices) {

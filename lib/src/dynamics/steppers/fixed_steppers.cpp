@@ -1,6 +1,10 @@
 #include <tendril/dynamics/fixed_steppers.h>
 
+#include <tendril/base/error.h>
+
 #include <array>
+
+#include "dynamics/scene/model.h"
 
 namespace tendril {
 namespace {
@@ -85,27 +89,40 @@ struct VelocityVerlet::Implementation {
   long evaluations = 0;
 };
 
-VelocityVerlet::VelocityVerlet(const System& system) : self_(new Implementation{system}) {}
+VelocityVerlet::VelocityVerlet(const System& system) : self_(new Implementation{system}) {
+  const std::vector<RigidBody>& bodies = model_of(system).bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].isotropic)
+      throw InvalidInput(
+          "method", "verlet with bodies[" + std::to_string(b) + "].inertia of unequal moments",
+          "another method: the spin of such a body changes without a torque, and a kick by what "
+          "it was before loses what makes Verlet keep energy");
+}
 VelocityVerlet::~VelocityVerlet() = default;
 
 Evaluation VelocityVerlet::advance(State& state, double h) {
   auto& [system, passes, work, rate, half, y, known, evaluations] = *self_;
   const auto n = 3 * static_cast<Eigen::Index>(system.node_count());
   const auto m = static_cast<Eigen::Index>(system.twist_count());
+  const auto k = 3 * static_cast<Eigen::Index>(system.body_count());
+  const Eigen::Index x = 2 * (n + m);
   if (!known) {
     ++evaluations;
     if (const Evaluation at = system.derivative(state, state.time, state.y, rate, *work); !at.ok()) return at;
   }
   known = false;  // until this step has arrived
   // Kick: velocities, spins and the work done.
-  const auto kick = [n, m, h, &kicks = self_->rate](Eigen::VectorXd& at) {
+  const auto kick = [n, m, k, h, &kicks = self_->rate](Eigen::VectorXd& at) {
     at.segment(n, n) += 0.5 * h * kicks.segment(n, n);
-    at.tail(m + 1) += 0.5 * h * kicks.tail(m + 1);
+    at.segment(2 * n + m, m) += 0.5 * h * kicks.segment(2 * n + m, m);
+    at.tail(2 * k + 1) += 0.5 * h * kicks.tail(2 * k + 1);
   };
   half = state.y;
   kick(half);
   half.head(n) += h * half.segment(n, n);
   half.segment(2 * n, m) = h * half.segment(2 * n + m, m);
+  half.segment(x, k) += h * half.segment(x + 2 * k, k);
+  half.segment(x + k, k) = h * half.segment(x + 3 * k, k);
   y = half;
   for (int pass = 0; pass < passes; ++pass) {
     ++evaluations;

@@ -352,6 +352,8 @@ class BlockSolver : public StiffSolver {
 }  // namespace
 
 std::unique_ptr<StiffSolver> make_stiff_solver(const System& system, System::Workspace& work) {
+  if (system.body_count() > 0)
+    throw InvalidInput("method", "an implicit one with free bodies", "an explicit method");
   if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work);
   return std::make_unique<BlockSolver<3>>(system, work);
 }

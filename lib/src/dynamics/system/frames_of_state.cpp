@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "dynamics/body/bodies.h"
 #include "dynamics/rhs/kinematics.h"
 
 namespace tendril {
@@ -80,6 +81,7 @@ Evaluation System::rebase(State& state, Workspace& work) const {
     state.director[seed] = director_of_seed(model, state, seed, kin);
     state.tangent[seed] = kin.frame.z[seed];
   }
+  rebase_bodies(model, kin.bodies, state);
   return {};
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "dynamics/body/bodies.h"
 #include "dynamics/rhs/elastic.h"
 #include "dynamics/rhs/kinematics.h"
 #include "dynamics/rhs/pull_back.h"
@@ -19,12 +21,20 @@ struct MassMetric {
       const auto at = 3 * static_cast<Eigen::Index>(i);
       for (int axis = 0; axis < 3; ++axis) add(at + axis, model.v_begin() + at + axis, model.moved_mass[i]);
     }
+    const Eigen::Index k = model.bodies_span();
+    for (Eigen::Index i = 0; i < k; ++i)
+      add(model.x_begin() + i, model.x_begin() + 2 * k + i,
+          model.bodies[static_cast<std::size_t>(i / 3)].mass);
     turns_from = position.size();
     for (std::size_t i = 0; i < model.nodes; ++i) {
       if (!model.has_twist(i) || model.holds_frame(i)) continue;
       add(model.theta_begin() + model.twist_index[i], model.spin_begin() + model.twist_index[i],
           model.inertia[i]);
     }
+    // The turns of bodies, about their principal axes.
+    for (Eigen::Index i = 0; i < k; ++i)
+      add(model.x_begin() + k + i, model.x_begin() + 3 * k + i,
+          model.bodies[static_cast<std::size_t>(i / 3)].moments[i % 3]);
   }
   void add(Eigen::Index index, Eigen::Index its_rate, double mass) {
     position.push_back(index);
@@ -42,10 +52,12 @@ struct MassMetric {
 class WeightedStiffness {
  public:
   WeightedStiffness(const System& system, const Model& model, const State& state, System::Workspace& work)
-      : metric(model), system_(system), state_(state), work_(work), y_(state.y) {
+      : metric(model), system_(system), model_(model), state_(state), work_(work), y_(state.y) {
     y_.segment(model.v_begin(), model.v_begin()).setZero();
     y_.segment(model.spin_begin(), static_cast<Eigen::Index>(model.twist_nodes)).setZero();
-    shortest_edge_ = model.rest_length[model.rods.front().first];
+    y_.segment(model.x_begin() + 2 * model.bodies_span(), 2 * model.bodies_span()).setZero();
+    shortest_edge_ = std::numeric_limits<double>::infinity();
+    for (const RigidBody& body : model.bodies) shortest_edge_ = std::min(shortest_edge_, body.size);
     for (const NodeRange& rod : model.rods)
       for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i)
         shortest_edge_ = std::min(shortest_edge_, model.rest_length[i]);
@@ -73,14 +85,18 @@ class WeightedStiffness {
     moved_ = y_;
     for (std::size_t k = 0; k < metric.root.size(); ++k)
       moved_[metric.position[k]] += step * x[static_cast<Eigen::Index>(k)] / metric.root[k];
-    return system_.derivative(state_, state_.time, moved_, dy, work_).ok();
+    turn_from_principal_axes(model_, state_, moved_);
+    if (!system_.derivative(state_, state_.time, moved_, dy, work_).ok()) return false;
+    turn_to_principal_axes(model_, state_, dy);
+    return true;
   }
 
   const System& system_;
+  const Model& model_;
   const State& state_;
   System::Workspace& work_;
   Eigen::VectorXd y_, moved_, up_, down_;
-  double shortest_edge_ = 0.0;
+  double shortest_edge_;  ///< or smallest body
 };
 
 /// Fixed start vector without a preferred direction.
@@ -114,7 +130,7 @@ double largest_ritz_value(const std::vector<double>& diagonal, const std::vector
 double System::largest_frequency(const State& state, int vectors, Workspace& work) const {
   WeightedStiffness stiffness(*this, *model_, state, work);
   const Eigen::Index size = stiffness.metric.size();
-  if (size == 0) return 0.0;
+  if (size == 0) return fastest_nutation(*model_, state);
   std::vector<double> diagonal;
   std::vector<double> beside;
   Eigen::VectorXd x = start_vector(size);
@@ -130,7 +146,8 @@ double System::largest_frequency(const State& state, int vectors, Workspace& wor
     before = x;
     x = next / beside.back();
   }
-  return diagonal.empty() ? 0.0 : std::sqrt(largest_ritz_value(diagonal, beside));
+  const double nutation = fastest_nutation(*model_, state);
+  return diagonal.empty() ? nutation : std::max(nutation, std::sqrt(largest_ritz_value(diagonal, beside)));
 }
 
 }  // namespace tendril

@@ -46,7 +46,7 @@ void RodCurves::update(const System& system, const State& state, System::Workspa
   if (pairs.size() != size() || system.rods().size() != size())
     throw InvalidInput("pairs", std::to_string(pairs.size()) + " of them", "one for each rod");
   const std::vector<Vec3> q = system.orientation_masses(state, work);
-  if (q.empty()) throw InvalidInput("state", "a node without a frame", "a state with frames");
+  if (q.empty() && size() > 0) throw InvalidInput("state", "a node without a frame", "a state with frames");
   std::vector<Vec3> p;
   for (std::size_t r = 0; r < size(); ++r) {
     const NodeRange& range = system.rods()[r];

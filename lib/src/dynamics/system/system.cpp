@@ -1,5 +1,6 @@
 #include <tendril/base/error.h>
 
+#include "dynamics/body/bodies.h"
 #include "dynamics/rhs/elastic.h"
 #include "dynamics/rhs/kinematics.h"
 #include "dynamics/rhs/pull_back.h"
@@ -35,6 +36,9 @@ std::size_t System::node_count() const {
 std::size_t System::twist_count() const {
   return model_->twist_nodes;
 }
+std::size_t System::body_count() const {
+  return model_->bodies.size();
+}
 const Scene& System::scene() const {
   return model_->scene;
 }
@@ -52,6 +56,7 @@ State System::rest_state(double time) const {
     state.director.push_back(model_->rest_frame[i].y);
   }
   state.twist = model_->rest_twist;
+  start_bodies(*model_, state);
   const auto work = make_workspace();
   if (!rebase(state, *work).ok())
     throw InvalidInput("anchors", "the poses at the start leave no frame at some node",
@@ -94,6 +99,7 @@ Energies System::energies(const State& state, Workspace& work) const {
       result.kinetic += 0.5 * model.inertia[i] * kin.spin[i] * kin.spin[i];
     result.potential -= model.mass[i] * model.gravity.dot(kin.p[i]);
   }
+  add_body_energies(model, kin.bodies, result);
   if (!model.loaded) return result;
   StateView seen = view(model, state.time, kin, loads);
   for (const Model::Acting& acting : model.acting) {
@@ -102,6 +108,24 @@ Energies System::energies(const State& state, Workspace& work) const {
     result.potential += acting.force->energy(seen);
   }
   return result;
+}
+
+std::vector<BodyView> System::bodies(const State& state) const {
+  std::vector<BodyView> bodies(body_count());
+  if (const Evaluation at = place_bodies(*model_, state, state.y, bodies); !at.ok()) return {};
+  return bodies;
+}
+
+void System::set_body(State& state, std::size_t body, const BodyView& to) const {
+  if (body >= body_count())
+    throw InvalidInput("body", std::to_string(body), "less than " + std::to_string(body_count()));
+  if (!is_rotation(to.rotation))
+    throw InvalidInput("rotation", "not orthonormal, or mirrored", "a rotation to 1e-9");
+  put_body(*model_, body, to, state);
+}
+
+Evaluation System::refusal(const State& state, Workspace& work) const {
+  return tendril::refusal(*model_, state, work);
 }
 
 }  // namespace tendril
