@@ -52,5 +52,36 @@ TEST(Statics, SaysWhyItFailsAndRefusesHalfAMotion) {
   EXPECT_NE(refused.err.find("/curve_pairs/0/anchors/1/rotation"), std::string::npos) << refused.err;
 }
 
+/// A bar held at one point hangs down, a free one is held by nothing, and the scene says where loads begin.
+TEST(Statics, FollowsWhatNothingResistsOrNamesIt) {
+  const Folder folder;
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [
+      {"name": "bar", "points": [[0, 0, 0], [1, 0, 0]], "nodes": 9, "orientation": [0, 0, 1],
+       "material": {"young": 2e11, "poisson": 0.3, "density": 7850}, "section": {"type": "circular", "radius": 0.01},
+       "anchors": [{"node": 0, "hold": "position"}]}],
+    "forces": [{"type": "gravity", "acceleration": [0, -9.81, 0]}],
+    "statics": {"first_load": 0.5},
+    "simulation": {"duration": 1}
+  })");
+  folder.write("scene.json", scene.dump());
+  const Outcome hung = folder.run("statics scene.json --out out --json --no-pictures");
+  ASSERT_EQ(hung.code, 0) << hung.err;
+  const Json summary = Json::parse(hung.out);
+  EXPECT_LE(summary.at("residual").get<double>(), 1e-9);
+  const double depth = -summary.at("energy").at("potential").get<double>() /
+                       summary.at("supports")[0].at("force")[1].get<double>();
+  EXPECT_NEAR(depth, 0.5, 1e-6);  // of the centre of mass
+  const Outcome never = folder.run("statics scene.json --first-load 2 --load 2 --work-limit 1");
+  EXPECT_NE(never.err.find("at load 2"), std::string::npos) << never.err;
+  scene["curve_pairs"][0].erase("anchors");
+  folder.write("scene.json", scene.dump());
+  const Outcome falling = folder.run("statics scene.json");
+  EXPECT_EQ(falling.code, 1);
+  EXPECT_NE(falling.err.find("unheld: at load 0.5"), std::string::npos) << falling.err;
+  EXPECT_NE(falling.err.find("nothing holds rod 0"), std::string::npos) << falling.err;
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -35,6 +35,7 @@ scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phase
 /// Where anchors move, they are followed to the end of the scene's duration.
 StaticsOptions search_options(const Options& options, const scene::SceneFile& file) {
   StaticsOptions out = options.statics;
+  if (!out.first_load) out.first_load = file.statics.first_load;
   const auto& anchors = file.scene.anchors;
   const bool moves =
       std::any_of(anchors.begin(), anchors.end(), [](const Anchor& a) { return a.motion != nullptr; });
@@ -157,6 +158,9 @@ Command statics_command(CLI::App& parent) {
   app->add_option("--out", options->out, "folder for masses, mesh, pictures and summary of the equilibrium");
   app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
   app->add_option("--load", options->statics.last_load, "share of all forces, 1 by default");
+  app->add_option("--first-load", options->statics.first_load,
+                  "share of all forces at the start; by default the scene's, else 0, or all of them where "
+                  "nothing bends");
   app->add_option("--until", options->statics.until,
                   "time to which anchors and forces are followed; by default the scene's duration where "
                   "anchors move, else 0");

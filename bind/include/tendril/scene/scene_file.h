@@ -3,6 +3,7 @@
 #include <tendril/base/export.h>
 #include <tendril/dynamics/scene.h>
 #include <tendril/dynamics/simulation.h>
+#include <tendril/dynamics/statics_options.h>
 #include <tendril/dynamics/system.h>
 #include <tendril/scene/scene_error.h>
 #include <tendril/scene/view.h>
@@ -29,6 +30,7 @@ struct SceneFile {
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
   SimulationOptions options;                 ///< method, tolerance, limits, degree of the curves
+  StaticsOptions statics;                    ///< the load from which its equilibrium is followed
   double duration = 0.0;                     ///< positive
   std::vector<double> outputs;               ///< times, ascending from 0, none beyond the duration
   ViewOptions view;                          ///< how to draw it

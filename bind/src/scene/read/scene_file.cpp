@@ -165,6 +165,7 @@ SceneFile read_text(std::string_view text, const std::string& name) {
   if (file.has("forces")) read_forces(file.at("forces"), out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
   read_simulation(file.at("simulation"), out);
+  if (file.has("statics")) read_statics(file.at("statics"), out);
   read_picture(file, out);
   return out;
 }

@@ -86,6 +86,10 @@ void read_simulation(const JsonNode& simulation, SceneFile& out) {
   if (simulation.has("work_limit")) options.work_limit = simulation.at("work_limit").integer(1, 1L << 52);
 }
 
+void read_statics(const JsonNode& statics, SceneFile& out) {
+  if (statics.has("first_load")) out.statics.first_load = statics.at("first_load").number();
+}
+
 void read_picture(const JsonNode& file, SceneFile& out) {
   choose_up(file, out.view);
   if (file.has("picture")) read_picture_options(file.at("picture"), out);

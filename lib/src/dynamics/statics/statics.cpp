@@ -29,7 +29,7 @@ void check(const State& start, const StaticsOptions& options) {
   positive("tolerance", options.tolerance, 1e-3);
   positive("largest_step", options.largest_step, 1.0);
   positive("work_limit", static_cast<double>(options.work_limit), 1e15);
-  for (const double load : {options.first_load, options.last_load})
+  for (const double load : {options.first_load.value_or(0.0), options.last_load})
     if (!std::isfinite(load)) throw InvalidInput("load", sentence(load), "a finite share");
   if (options.until && !(std::isfinite(*options.until) && *options.until >= start.time))
     throw InvalidInput("until", sentence(*options.until), sentence("a time from ", start.time, " on"));
@@ -47,9 +47,10 @@ Stability stability_at(const System& system, const State& state, double load, do
   at.state = state;
   at.load = load;
   Eigen::SparseMatrix<double> k;
+  if (!problem.conservative()) return {.kind = Stability::Kind::not_judged};
   if (!problem.evaluate(at).ok() || !problem.tangent(at, k).ok()) return {};
   StaticTangent tangent(problem.coordinates().weight());
-  tangent.set(k, problem.conservative());
+  tangent.set(k, true);
   return analyse(problem.coordinates(), tangent, unbalanced);
 }
 
@@ -63,6 +64,7 @@ class Search {
  private:
   bool start_at(State start);
   bool first();
+  bool settle();
   bool go(const LoadPath& path, double begin, double part);
   bool step(const LoadPath& path, double& done, double& h);
   double capped(const LoadPath& path, double done, double h, const Eigen::VectorXd& rate) const;
@@ -94,6 +96,7 @@ void Search::stop(Balance balance, const std::string& why) {
 
 void Search::stop(StaticNewton::Outcome outcome, const std::string& why) {
   const Balance balance = outcome == StaticNewton::Outcome::work_limit      ? Balance::work_limit
+                          : outcome == StaticNewton::Outcome::unheld        ? Balance::unheld
                           : outcome == StaticNewton::Outcome::not_evaluable ? Balance::not_evaluable
                                                                             : Balance::stalled;
   stop(balance, why);
@@ -101,7 +104,8 @@ void Search::stop(StaticNewton::Outcome outcome, const std::string& why) {
 
 bool Search::start_at(State start) {
   at_.state = std::move(start);
-  at_.load = options_.first_load;
+  const bool bends = problem_.coordinates().energy_scale() > 0.0;
+  at_.load = options_.first_load.value_or(bends ? 0.0 : options_.last_load);
   const Evaluation e = problem_.evaluate(at_);
   if (!e.ok())
     stop(Balance::not_evaluable, problem_.coordinates().name_of(e.node) + ": " + describe(e.outcome));
@@ -117,6 +121,18 @@ bool Search::first() {
   }
   at_ = std::move(next);
   ++out_.steps;
+  return true;
+}
+
+/// What is hardly unstable or neutral on the way need not be where it ends.
+bool Search::settle() {
+  StaticState next = at_;
+  const StaticNewton::Outcome outcome = newton_.settle(next);
+  if (outcome != StaticNewton::Outcome::found) {
+    stop(outcome, newton_.reason());
+    return false;
+  }
+  at_ = std::move(next);
   return true;
 }
 
@@ -153,7 +169,7 @@ bool Search::step(const LoadPath& path, double& done, double& h) {
     h = capped(path, done, most, x);
   }
   StaticNewton::Outcome outcome = StaticNewton::Outcome::not_evaluable;
-  std::string why = "anchors move too fast";
+  std::string why = "the next step would turn or stretch edges too far, however short";
   for (; h > std::min(kShortest, 0.5 * (1.0 - done)); h /= 4) {
     // The last step ends exactly where it should.
     const double s = done + h > 1.0 - 1e-12 ? 1.0 : done + h;
@@ -168,7 +184,7 @@ bool Search::step(const LoadPath& path, double& done, double& h) {
     // Past several bifurcations at once the branch taken would be a matter of chance.
     outcome = newton_.find(next, h > kShortestToBranch ? unstable_ + kBranches : kAny);
     why = newton_.reason();
-    if (outcome == StaticNewton::Outcome::work_limit) break;
+    if (outcome == StaticNewton::Outcome::work_limit || outcome == StaticNewton::Outcome::unheld) break;
     if (outcome != StaticNewton::Outcome::found) continue;
     at_ = std::move(next);
     unstable_ = newton_.unstable();
@@ -214,18 +230,19 @@ void Search::report() {
 
 Equilibrium Search::run(State start) {
   const double begin = start.time;
-  const double load = options_.last_load - options_.first_load;
   const double time = options_.until.value_or(begin) - begin;
   if (!start_at(start)) {
     out_.state = std::move(start);
     return out_;
   }
+  const double load = options_.last_load - at_.load;
   const bool loads = load != 0.0 && !system_.scene().forces.empty();
   const double part = !loads ? 0.0 : time > 0.0 ? 0.5 : 1.0;
   bool found = first();
   if (found && loads) found = go({at_.load, begin, load, 0.0}, 0.0, part);
   at_.load = found && !loads ? options_.last_load : at_.load;
   if (found && time > 0.0) found = go({at_.load, begin, 0.0, time}, part, 1.0 - part);
+  if (found) settle();
   report();
   return out_;
 }
@@ -240,6 +257,8 @@ const char* to_string(Balance balance) {
       return "stalled";
     case Balance::work_limit:
       return "work_limit";
+    case Balance::unheld:
+      return "unheld";
     case Balance::not_evaluable:
       return "not_evaluable";
     case Balance::cancelled:
@@ -256,6 +275,8 @@ const char* to_string(Stability::Kind kind) {
       return "neutral";
     case Stability::Kind::unstable:
       return "unstable";
+    case Stability::Kind::not_judged:
+      return "not judged";
   }
   return "";
 }

@@ -11,6 +11,7 @@ namespace tendril {
 namespace {
 
 constexpr int kMostDescending = 300;  // iterations down the energy
+constexpr int kMostNear = 30;         // of them near an equilibrium, which balance() finds better
 constexpr int kMostContracting = 25;  // iterations along a branch
 constexpr int kUphill = 5;            // steps in a row that may lie above the lowest energy
 constexpr double kChord = 0.05;       // size of a step from which its tangent serves again
@@ -19,6 +20,7 @@ constexpr int kMostChords = 8;
 constexpr double kNear = 1e-4;        // size of a step from which Newton's method must contract
 constexpr double kNearSaddle = 1e-6;  // size of a step at which an unstable equilibrium counts as reached
 constexpr double kNoise = 1e-13;      // of an energy, over its parts
+constexpr double kLeastShift = 2.0;   // of a tangent, over the threshold of a neutral direction
 constexpr double kHardly = 1e-4;      // of a negative eigenvalue, over B / l
 constexpr int kSlow = 3;              // steps near an equilibrium that do not shrink
 constexpr double kKick = 0.02;        // of what one step may do, off an unstable equilibrium
@@ -65,6 +67,11 @@ bool StaticNewton::factorise(const StaticState& at) {
   factored_ = true;
   indefinite_ = false;
   unstable_ = 0;
+  if (!problem_.conservative()) {
+    // What no spring resists only rounding turns; the shift keeps that small and hardly slows the rest.
+    shift_ = 0.0;
+    return tangent_.factorise(kLeastShift * neutral_threshold(problem_.coordinates(), tangent_));
+  }
   if (!cautious_ && tangent_.factorise(0.0) && (!seeks_stable_ || tangent_.negative() == 0)) {
     unstable_ = tangent_.negative();
     shift_ = 0.0;
@@ -124,6 +131,27 @@ StaticNewton::Outcome StaticNewton::find(StaticState& at, int most_unstable) {
   }
   // Off a branch's own neutral directions steps stay short; down the energy each state tells anew.
   cautious_ = cautious_ && !seeks_stable_;
+  const Outcome outcome = approach(at);
+  if (outcome == Outcome::found && balanced(at)) return outcome;
+  if (outcome != Outcome::found) {
+    if (outcome != Outcome::stalled || !seeks_stable_) return outcome;
+    at = best_;
+  }
+  if (tighten(at)) return Outcome::found;
+  const bool cautious = cautious_;
+  const Outcome last = balance(at, false);
+  // The next step's prediction keeps to what this one knew of neutral directions.
+  factored_ = factored_ && !cautious;
+  cautious_ = cautious;
+  return last;
+}
+
+StaticNewton::Outcome StaticNewton::settle(StaticState& at) {
+  if (problem_.size() == 0 || !seeks_stable_) return Outcome::found;
+  return balance(at, true);
+}
+
+StaticNewton::Outcome StaticNewton::approach(StaticState& at) {
   return seeks_stable_ ? descend(at) : contract(at);
 }
 
@@ -157,7 +185,7 @@ StaticNewton::Outcome StaticNewton::descend(StaticState& at) {
   best_ = at;
   uphill_ = 0;
   double before = std::numeric_limits<double>::infinity();
-  int slow = 0;
+  int slow = 0, near = 0;
   for (; last_iterations_ < kMostDescending; ++last_iterations_, ++iterations) {
     if (out_of_work()) return fail(Outcome::work_limit, "the work limit");
     Step step;
@@ -169,12 +197,14 @@ StaticNewton::Outcome StaticNewton::descend(StaticState& at) {
     last_step_ = step.size;
     if (last_iterations_ == 0 && unstable_ > most_unstable_)
       return fail(Outcome::too_unstable, sentence(unstable_, " unstable directions at once"));
-    if (indefinite_ && step.size < kNearSaddle && leave(at)) continue;
+    if (indefinite_ && step.size < kNearSaddle && leave(at, least_lift())) continue;
     if (step.part == 1.0 && step.size <= options_.tolerance) {
       StaticState next;
       if (try_move(at, step.x, next)) at = std::move(next);
       return Outcome::found;
     }
+    near += step.size < kNear ? 1 : 0;
+    if (near > kMostNear) return fail(Outcome::stalled, sentence("the last step of size ", step.size));
     slow = step.size < kNear && step.size > 0.8 * before && !indefinite_ ? slow + 1 : slow;
     cautious_ = cautious_ || slow > 0;
     if (slow > kSlow && step.part == 1.0 && std::abs(step.x.dot(at.residual)) < noise(at))
@@ -224,8 +254,7 @@ bool StaticNewton::fall(const StaticState& at, double amplitude, const Eigen::Ve
 }
 
 /// Off an unstable equilibrium along its lowest mode, as far as the energy falls.
-bool StaticNewton::leave(StaticState& at) {
-  const double threshold = least_lift();
+bool StaticNewton::leave(StaticState& at, double threshold) {
   LowestMode mode = lowest_mode(tangent_, threshold);
   factored_ = false;
   if (!(mode.value < -threshold)) return false;
@@ -270,7 +299,7 @@ StaticNewton::Outcome StaticNewton::contract(StaticState& at) {
     at = std::move(next);
     if (last) return Outcome::found;
     slow = step.size < kNear && step.size > 0.8 * before ? slow + 1 : 0;
-    cautious_ = cautious_ || slow > 0;
+    cautious_ = problem_.conservative() && (cautious_ || slow > 0);
     if (slow > kSlow && gains_nothing(at, step)) return Outcome::found;
     if (slow > 3 * kSlow)
       return fail(Outcome::stalled, sentence("the step no longer shrinks below ", step.size, ": rounding"));

@@ -10,11 +10,14 @@ class StaticNewton {
   /// Kept by reference.
   StaticNewton(StaticProblem& problem, const StaticsOptions& options);
 
-  enum class Outcome { found, stalled, work_limit, not_evaluable, too_unstable };
+  enum class Outcome { found, stalled, work_limit, not_evaluable, too_unstable, unheld };
   /// Moves `at` (evaluated) to an equilibrium at its load and time. On another outcome `at` is not to be
   /// used, and reason() says why.
   /// \param most_unstable  directions that may be unstable where it begins
   Outcome find(StaticState& at, int most_unstable);
+
+  /// Moves `at`, found, off what is unstable at all, however hardly, and to balance again.
+  Outcome settle(StaticState& at);
 
   /// -K^-1 rate, with the tangent at the static state; empty when there is none.
   Eigen::VectorXd follow(const StaticState& at, const Eigen::VectorXd& rate);
@@ -39,16 +42,26 @@ class StaticNewton {
   double least_lift() const;
   bool lift(double least);
   bool plan(const StaticState& at, Step& step);
+  Outcome approach(StaticState& at);
   Outcome descend(StaticState& at);
   Outcome contract(StaticState& at);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   double size_of(const Eigen::VectorXd& x, const StaticState& at) const;
   bool chords(StaticState& at, Step& step);
   bool take_downhill(StaticState& at, const Step& step);
-  bool leave(StaticState& at);
+  bool leave(StaticState& at, double threshold);
   bool fall(const StaticState& at, double amplitude, const Eigen::VectorXd& x, StaticState& lowest);
   bool try_move(const StaticState& from, const Eigen::VectorXd& x, StaticState& to);
   double noise(const StaticState& at) const;
+  // Of balance, in statics_balance.cpp.
+  bool balanced(const StaticState& at) const;
+  bool tighten(StaticState& at);
+  Outcome balance(StaticState& at, bool leaving);
+  bool stiffen(const StaticState& at);
+  bool fall_or_contract(StaticState& at, const Step& step);
+  void polish(StaticState& at);
+  bool unheld(const StaticState& at, const Eigen::VectorXd& x);
+  Outcome fail_to_balance(const StaticState& at, const Eigen::VectorXd& x);
   bool gains_nothing(const StaticState& at, const Step& step) const;
   Outcome fail(Outcome outcome, std::string reason);
 

@@ -11,6 +11,9 @@
 namespace tendril {
 namespace {
 
+constexpr double kBalanced = 1e-9;       // of an unbalanced force, over the loads and reactions
+constexpr double kHalfUnit = 0x1.0p-53;  // in the last place, relative
+
 /// Nothing holds a free body: it comes to rest nowhere but by chance.
 const System& without_bodies(const System& system) {
   if (system.body_count() > 0)
@@ -53,6 +56,7 @@ Evaluation StaticProblem::evaluate(StaticState& at) {
       !e.ok())
     return e;
   if (const Evaluation e = loads_.add(at.state, at.loads, at.potential, *work_); !e.ok()) return e;
+  at.pushed = loads_.sum();
   at.residual.resize(size());
   for (Eigen::Index k = 0; k < size(); ++k)
     at.residual[k] = at.gradient[coordinates_.in_gradient(k)] - at.load * at.loads[k];
@@ -121,13 +125,57 @@ Evaluation StaticProblem::tangent(const StaticState& at, Eigen::SparseMatrix<dou
   if (!loads_.depends_on_state() || at.load == 0.0) return {};
   std::vector<Eigen::Triplet<double>> triplets;
   if (const Evaluation e = loads_.differentiate(at.state, elastic, triplets, *work_); !e.ok()) return e;
+  for (auto& entry : triplets) entry = {entry.row(), entry.col(), -at.load * entry.value()};
+  if (!conservative_) add_turning(at, triplets);
   Eigen::SparseMatrix<double> by_loads(size(), size());
   by_loads.setFromTriplets(triplets.begin(), triplets.end());
   if (conservative_)
-    k -= Eigen::SparseMatrix<double>((at.load * by_loads).triangularView<Eigen::Lower>());
+    k += Eigen::SparseMatrix<double>(by_loads.triangularView<Eigen::Lower>());
   else
-    k -= at.load * by_loads;
+    k += by_loads;
   return {};
+}
+
+/// The Hessian is that of E(p, theta), whose directors are carried along; forces are its gradient with
+/// directors that do not spin. Where springs twist a node by g, as a torque about its tangent makes them,
+/// that differs by 1/2 g R_k^T (t x R_j), antisymmetric, with R_k = dt / dd_k.
+void StaticProblem::add_turning(const StaticState& at, std::vector<Eigen::Triplet<double>>& out) const {
+  const auto place = [&](std::size_t i) {
+    return Vec3(at.state.y.segment<3>(3 * static_cast<Eigen::Index>(i)));
+  };
+  for (const NodeRange& rod : system_.rods())
+    for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
+      const Eigen::Index turn = coordinates_.row(i, 3);
+      if (turn < 0) continue;
+      const double g = at.gradient[coordinates_.in_gradient(turn)];
+      const std::size_t from = i > rod.first ? i - 1 : i;
+      const std::size_t to = i + 1 < rod.first + rod.count ? i + 1 : i;
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t e = from; e < to; ++e) sum += (place(e + 1) - place(e)).normalized();
+      const Vec3 t = sum.normalized();
+      for (std::size_t k = from; k < to; ++k)
+        for (std::size_t j = from; j < to; ++j)
+          put_turning(k, j, 0.5 * g / sum.squaredNorm(), t, place(k + 1) - place(k), place(j + 1) - place(j),
+                      out);
+    }
+}
+
+/// c U_k [t]x U_j by the vectors along edges k and j, U = (1 - e e^T) / |d|.
+void StaticProblem::put_turning(std::size_t k, std::size_t j, double c, const Vec3& t, const Vec3& dk,
+                                const Vec3& dj, std::vector<Eigen::Triplet<double>>& out) const {
+  const auto across = [](const Vec3& d) {
+    return Mat3((Mat3::Identity() - d * d.transpose() / d.squaredNorm()) / d.norm());
+  };
+  Mat3 turned;
+  turned << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  const Mat3 by = c * across(dk) * turned * across(dj);
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b)
+      for (int r = 0; r < 3; ++r)
+        for (int q = 0; q < 3; ++q) {
+          const Eigen::Index row = coordinates_.row(k + a, r), column = coordinates_.row(j + b, q);
+          if (row >= 0 && column >= 0) out.emplace_back(row, column, a == b ? by(r, q) : -by(r, q));
+        }
 }
 
 double StaticProblem::largest(const Eigen::VectorXd& residual) const {
@@ -137,17 +185,39 @@ double StaticProblem::largest(const Eigen::VectorXd& residual) const {
   return most;
 }
 
-double StaticProblem::force_scale(const StaticState& at) {
-  const double length = coordinates_.length();
-  StaticState again = at;
-  double unused = 0.0;
-  double scale = coordinates_.energy_scale() / length;
-  if (loads_.add(again.state, again.loads, unused, *work_).ok())
-    scale = std::max(scale, at.load * loads_.sum());
+/// The larger of the loads and the reactions.
+double StaticProblem::pushed(const StaticState& at) const {
+  double most = std::abs(at.load) * at.pushed;
   for (std::size_t i = 0; i < system_.node_count(); ++i)
     if (coordinates_.holds_position(i))
-      scale = std::max(scale, at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i)).norm());
-  return scale;
+      most = std::max(most, at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i)).norm());
+  return most;
+}
+
+/// What half a unit in the last place of every position and director may make of a force, by the last
+/// Hessian: in a stiff rod more than the goal.
+double StaticProblem::rounding(const StaticState& at) const {
+  if (elastic_.cols() != at.gradient.size()) return 0.0;
+  const Eigen::Index positions = 3 * static_cast<Eigen::Index>(system_.node_count());
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(elastic_.rows());
+  for (Eigen::Index c = 0; c < elastic_.cols(); ++c) {
+    const double size = c < positions ? std::abs(at.state.y[c]) : 1.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(elastic_, c); entry; ++entry)
+      sums[entry.row()] += std::abs(entry.value()) * size;
+  }
+  double most = 0.0;
+  for (Eigen::Index k = 0; k < size(); ++k)
+    most = std::max(
+        most, sums[coordinates_.in_gradient(k)] / (coordinates_.axis(k) == 3 ? coordinates_.length() : 1.0));
+  return kHalfUnit * most;
+}
+
+double StaticProblem::goal(const StaticState& at) const {
+  return std::max(kBalanced * pushed(at), 2.0 * rounding(at));
+}
+
+double StaticProblem::force_scale(const StaticState& at) const {
+  return std::max({coordinates_.energy_scale() / coordinates_.length(), pushed(at), goal(at) / kBalanced});
 }
 
 std::vector<Vec3> StaticProblem::support(const StaticState& at) {

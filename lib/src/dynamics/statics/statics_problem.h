@@ -14,6 +14,7 @@ struct StaticState {
   Eigen::VectorXd gradient;  ///< elastic, in the order of System::elastic_gradient
   Eigen::VectorXd loads;     ///< on the free coordinates, at their full share
   Eigen::VectorXd residual;  ///< elastic gradient less the share of the loads
+  double pushed = 0.0;       ///< sum of the loads' sizes, at their full share
   double energy() const { return elastic + load * potential; }
 };
 
@@ -40,14 +41,23 @@ class StaticProblem {
   /// d residual / dx, of conservative scenes the lower triangle.
   Evaluation tangent(const StaticState& at, Eigen::SparseMatrix<double>& k);
 
-  /// The largest of the loads, the reactions of held nodes, and B / l^2.
-  double force_scale(const StaticState& at);
+  /// What unbalanced forces count as none against: 1e-9 of the larger of the loads and the reactions of held
+  /// nodes, or what rounding makes of them, where that is more.
+  double goal(const StaticState& at) const;
+  /// Equilibrium::force_scale.
+  double force_scale(const StaticState& at) const;
   /// Largest force, or torque over the length.
   double largest(const Eigen::VectorXd& residual) const;
   /// The forces of anchors on their nodes.
   std::vector<Vec3> support(const StaticState& at);
 
  private:
+  double pushed(const StaticState& at) const;
+  double rounding(const StaticState& at) const;
+  void add_turning(const StaticState& at, std::vector<Eigen::Triplet<double>>& out) const;
+  void put_turning(std::size_t k, std::size_t j, double c, const Vec3& t, const Vec3& dk, const Vec3& dj,
+                   std::vector<Eigen::Triplet<double>>& out) const;
+
   const System& system_;
   System::WorkspacePtr work_;
   StaticCoordinates coordinates_;

@@ -54,15 +54,6 @@ void StaticTangent::set(const Eigen::SparseMatrix<double>& k, bool symmetric) {
   rounding_ = sums.size() > 0 ? kRounding * sums.maxCoeff() : 0.0;
 }
 
-void StaticTangent::symmetrise() {
-  if (symmetric_) return;
-  const Eigen::SparseMatrix<double> transposed = s_.transpose();
-  const Eigen::SparseMatrix<double> mean = 0.5 * (s_ + transposed);
-  s_ = mean.triangularView<Eigen::Lower>();
-  analysed_ = false;
-  symmetric_ = true;
-}
-
 bool StaticTangent::factorise(double shift) {
   ++factorisations;
   shift_ = shift;
@@ -135,7 +126,6 @@ Stability analyse(const StaticCoordinates& coordinates, StaticTangent& tangent, 
     out.kind = Stability::Kind::stable;
     return out;
   }
-  tangent.symmetrise();
   out.threshold = std::max(neutral_threshold(coordinates, tangent), unbalanced);
   tangent.factorise(out.threshold);
   out.unstable = tangent.negative();

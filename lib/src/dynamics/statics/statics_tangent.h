@@ -16,8 +16,6 @@ class StaticTangent {
 
   /// \param symmetric  of k only the lower triangle is there
   void set(const Eigen::SparseMatrix<double>& k, bool symmetric);
-  /// The symmetric part takes the place of S, for its eigenvalues.
-  void symmetrise();
 
   /// False when a pivot is 0.
   bool factorise(double shift);
