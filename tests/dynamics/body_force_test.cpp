@@ -3,76 +3,18 @@
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
+#include <cmath>
+
 #include "support/rods.h"
+#include "support/ties.h"
 #include "support/tops.h"
 
 namespace tendril {
 namespace {
 
-Mat3 cross(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
-/// A spring and a damper between a node and a point of a body's matter.
-struct Tie : Force {
-  std::size_t node = 0, body = 0;
-  Vec3 at = Vec3::Zero();  ///< in the body's axes
-  double stiffness = 0.0, damping = 0.0;
-  bool derives = true, honest = true;
-
-  /// What pulls on the body, at which arm.
-  struct Pull {
-    Vec3 arm, stretch, force;
-  };
-  Pull pull(const StateView& state) const {
-    const BodyView& b = state.bodies[body];
-    const Vec3 arm = b.rotation * at;
-    const Vec3 stretch = b.position + arm - state.p[node];
-    const Vec3 rate = b.velocity_at(b.position + arm) - state.v[node];
-    return {arm, stretch, -stiffness * stretch - damping * rate};
-  }
-  void add(const StateView& state, const Loads& loads) const override {
-    const Pull f = pull(state);
-    loads.force[node] -= f.force;
-    loads.bodies[body].add_at(state.bodies[body].position + f.arm, f.force, state.bodies[body].position);
-  }
-  Couplings couplings(std::span<const NodeRange>) const override {
-    throw std::logic_error("asked without the number of bodies");
-  }
-  Couplings couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const override {
-    EXPECT_LT(body, bodies);
-    const std::size_t place = rods.back().first + rods.back().count + 2 * body;
-    Couplings all = honest ? Couplings::among({node, place, place + 1}) : Couplings::among({node, place});
-    if (!derives) return all;
-    return std::move(all).with(
-        [this, place](const StateView& s, LoadDerivatives& to) { derive(s, place, to); });
-  }
-  void derive(const StateView& state, std::size_t place, LoadDerivatives& to) const {
-    const Pull f = pull(state);
-    const Mat3 one = Mat3::Identity();
-    const Mat3 arm = cross(f.arm);
-    const Mat3 by_turn = stiffness * arm + damping * cross(state.bodies[body].spin) * arm;
-    const auto add = [&](std::size_t j, const Mat3& by_x, const Mat3& by_u) {
-      to.add_by_position(node, j, -by_x);
-      to.add_by_velocity(node, j, -by_u);
-      to.add_by_position(place, j, by_x);
-      to.add_by_velocity(place, j, by_u);
-      to.add_by_position(place + 1, j, arm * by_x);
-      to.add_by_velocity(place + 1, j, arm * by_u);
-    };
-    add(node, stiffness * one, damping * one);
-    add(place, -stiffness * one, -damping * one);
-    add(place + 1, by_turn, damping * arm);
-    to.add_by_position(place + 1, place + 1, cross(f.force) * arm);
-  }
-  bool depends_on_time() const override { return false; }
-  bool has_energy() const override { return damping == 0.0; }
-  double energy(const StateView& state) const override {
-    return 0.5 * stiffness * pull(state).stretch.squaredNorm();
-  }
-};
+using test::Tie;
+using test::tie_of;
+using test::tied;
 
 /// A view on a rod of four nodes and two bodies, all moving.
 struct Stirred {
@@ -93,16 +35,6 @@ struct Stirred {
   std::vector<NodeRange> rods{{0, 4}};
   std::vector<BodyView> bodies;
 };
-
-Tie tie_of(double stiffness, double damping) {
-  Tie tie;
-  tie.node = 2;
-  tie.body = 1;
-  tie.at = Vec3(0.3, -0.1, 0.2);
-  tie.stiffness = stiffness;
-  tie.damping = damping;
-  return tie;
-}
 
 TEST(CheckForce, HoldsForcesOnBodiesToWhatTheySay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -170,25 +102,6 @@ Vec3 angular_momentum(const System& system, const State& state) {
   return sum;
 }
 
-/// A free rod that a spring ties to the surface of a spinning body.
-Scene tied(bool derives, double stiffness, double damping) {
-  Scene scene;
-  scene.rods.push_back(test::straight_rod(6, 1e5, 0.02));
-  Body body = test::body_of({0.02, 0.03, 0.04}, 1.0);
-  body.position = Vec3(1.0, 0.1, 0.4);
-  body.velocity = Vec3(0, 0.3, -0.2);
-  body.spin = Vec3(2, -1, 3);
-  Body other = body;
-  other.position = Vec3(5, 5, 5);
-  scene.bodies = {other, body};
-  auto tie = std::make_shared<Tie>(tie_of(stiffness, damping));
-  tie->node = 6;
-  tie->at = Vec3(0.1, 0.0, -0.15);
-  tie->derives = derives;
-  scene.forces = {tie};
-  return scene;
-}
-
 class Tied : public testing::TestWithParam<Method> {};
 
 TEST_P(Tied, KeepsMomentumAndEnergy) {
@@ -211,8 +124,112 @@ TEST_P(Tied, KeepsMomentumAndEnergy) {
   EXPECT_LT(std::abs(report.imbalance), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Tied, testing::Values(Method::cash_karp, Method::runge_kutta4),
+INSTANTIATE_TEST_SUITE_P(Methods, Tied,
+                         testing::Values(Method::cash_karp, Method::rodas, Method::runge_kutta4),
                          [](const auto& method) { return to_string(method.param); });
+
+/// The numbers of all after a time, by a method with its choice of steps.
+Eigen::VectorXd after(const System& system, Method method, double time) {
+  SimulationOptions options;
+  options.method = method;
+  options.tolerance = 1e-9;
+  Simulation simulation(system, system.rest_state(), options);
+  const Report report = simulation.run(time);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_LT(std::abs(report.imbalance), 1e-7);
+  const std::vector<BodyView> bodies = system.bodies(simulation.state());
+  Eigen::VectorXd all(6 * static_cast<Eigen::Index>(system.node_count()) + 18);
+  all << simulation.state().y.head(6 * static_cast<Eigen::Index>(system.node_count())), bodies[1].position,
+      bodies[1].velocity, bodies[1].spin, bodies[1].rotation.col(0), bodies[1].rotation.col(1),
+      bodies[1].rotation.col(2);
+  return all;
+}
+
+TEST(TiedBodies, MoveAlikeByExplicitAndImplicitSteps) {
+  for (const bool twist : {false, true})
+    for (const double damping : {0.0, 0.5}) {
+      const System exact(tied(true, 60.0, damping, twist));
+      const System differences(tied(false, 60.0, damping, twist));
+      const Eigen::VectorXd by_explicit = after(exact, Method::cash_karp, 0.3);
+      const double off = (after(exact, Method::rodas, 0.3) - by_explicit).cwiseAbs().maxCoeff();
+      const double by_differences =
+          (after(differences, Method::rodas, 0.3) - by_explicit).cwiseAbs().maxCoeff();
+      std::printf("off by %.1e, and %.1e by differences\n", off, by_differences);
+      EXPECT_LT(off, 1e-5);
+      EXPECT_LT(by_differences, 1e-5);
+    }
+}
+
+/// Forces of a time of its own, which implicit steps differentiate too.
+struct Shaken : Force {
+  void add(const StateView& state, const Loads& loads) const override {
+    loads.bodies[0].torque += Vec3(0.1, 0.3, -0.2) * std::sin(4.0 * state.time);
+    loads.bodies[0].force += Vec3(1, 0, 2) * std::cos(3.0 * state.time);
+  }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
+};
+
+TEST(Rodas, KeepsTheBooksOfBodiesThatAreShaken) {
+  Scene scene = tied(true, 60.0, 0.2);
+  scene.forces.push_back(std::make_shared<Shaken>());
+  const System system(scene);
+  const auto run = [&](double tolerance) {
+    SimulationOptions options;
+    options.method = Method::rodas;
+    options.tolerance = tolerance;
+    Simulation simulation(system, system.rest_state(), options);
+    return simulation.run(0.6);
+  };
+  const Report report = run(1e-8);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  std::printf("work %.2e, energy off by %.1e, %ld evaluations\n", report.work, report.imbalance,
+              report.evaluations);
+  EXPECT_GT(std::abs(report.work), 1e-3);
+  EXPECT_LT(std::abs(report.imbalance), 1e-6);
+}
+
+/// A body hung by its surface on the tip of a clamped rod, by a spring far stiffer than all else: explicit
+/// steps would be too dear, and the choice knows.
+TEST(AutomaticChoice, TurnsToImplicitStepsWhereABodyIsTiedStiffly) {
+  Scene scene = tied(true, 1e9, 1e3);
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  const auto& tie = static_cast<const Tie&>(*scene.forces[0]);
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -9.81)));
+  Body& body = scene.bodies[1];
+  body.position = scene.rods[0].p[6] - body.rotation * tie.at;
+  body.velocity = body.spin = Vec3::Zero();
+  const System system(scene);
+  const auto run = [&](Method method) {
+    SimulationOptions options;
+    options.method = method;
+    options.work_limit = 200'000;
+    Simulation simulation(system, system.rest_state(), options);
+    const Report report = simulation.run(0.2);
+    std::printf("%s: %ld evaluations, fastest %.1e\n", report.method.c_str(), report.evaluations,
+                report.largest_frequency);
+    return report;
+  };
+  EXPECT_EQ(run(Method::cash_karp).stop, Stop::too_stiff);
+  const Report report = run(Method::automatic);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_NE(report.method.find("RODAS"), std::string::npos);
+}
+
+/// Couples a node with an index that may not be there: 7 nodes and two bodies have 11.
+struct Reaching : Force {
+  explicit Reaching(std::size_t at) : index(at) {}
+  void add(const StateView&, const Loads&) const override {}
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::among({0, index}); }
+  std::size_t index;
+};
+
+TEST(Couplings, RefuseBodiesThatAreNotThere) {
+  Scene scene = tied(true, 60.0, 0.0);
+  scene.forces[0] = std::make_shared<Reaching>(11);
+  EXPECT_EQ(test::place_of_refusal(scene), "forces[0]");
+  scene.forces[0] = std::make_shared<Reaching>(10);
+  EXPECT_EQ(test::place_of_refusal(scene), "accepted");
+}
 
 }  // namespace
 }  // namespace tendril

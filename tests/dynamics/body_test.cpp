@@ -67,8 +67,9 @@ TEST_P(FreeFall, OfABallThatSpins) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, FreeFall,
-                         testing::Values(Method::cash_karp, Method::verlet, Method::runge_kutta4,
-                                         Method::explicit_euler, Method::backward_euler),
+                         testing::Values(Method::cash_karp, Method::rodas, Method::automatic, Method::verlet,
+                                         Method::runge_kutta4, Method::explicit_euler,
+                                         Method::backward_euler),
                          [](const auto& method) { return to_string(method.param); });
 
 class FreeTop : public testing::TestWithParam<Method> {};
@@ -108,7 +109,8 @@ TEST_P(FreeTop, TurnsOverInTheTimeOfTheEllipticIntegral) {
   EXPECT_LT(std::abs(report.imbalance), 1e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FreeTop, testing::Values(Method::cash_karp, Method::runge_kutta4),
+INSTANTIATE_TEST_SUITE_P(Methods, FreeTop,
+                         testing::Values(Method::cash_karp, Method::rodas, Method::runge_kutta4),
                          [](const auto& method) { return to_string(method.param); });
 
 /// The numbers of a body after some steps of one size.
@@ -137,6 +139,7 @@ double order_on_a_top(int steps) {
 TEST(FreeTop, IsFollowedToTheOrdersOfTheMethods) {
   EXPECT_NEAR(order_on_a_top<CashKarp>(20), 5.0, 0.3);
   EXPECT_NEAR(order_on_a_top<ClassicRungeKutta>(40), 4.0, 0.2);
+  EXPECT_NEAR(order_on_a_top<Rodas>(40), 4.0, 0.3);
   EXPECT_NEAR(order_on_a_top<ExplicitEuler>(800), 1.0, 0.2);
 }
 

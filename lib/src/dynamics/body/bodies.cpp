@@ -1,5 +1,7 @@
 #include "bodies.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -100,6 +102,19 @@ void rebase_bodies(const Model& model, const std::vector<BodyView>& bodies, Stat
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     state.y.segment<3>(Numbers(model, b).phi).setZero();
     state.rotation[b] = nearest_rotation(bodies[b].rotation);
+  }
+}
+
+void bend_turns(const Model& model, double h, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                Eigen::VectorXd& middle) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Numbers at(model, b);
+    const Vec3 end = to.segment<3>(at.phi);
+    const Vec3 first = from.segment<3>(at.omega);
+    const Vec3 last = turning_rate(end) * to.segment<3>(at.omega);
+    const Vec3 half = 0.5 * end + h / 8 * (first - last);
+    middle.segment<3>(at.phi) = half;
+    middle.segment<3>(at.omega) = turning_rate(half).inverse() * (1.5 / h * end - 0.25 * (first + last));
   }
 }
 

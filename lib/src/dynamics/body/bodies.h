@@ -32,6 +32,11 @@ void put_body(const Model& model, std::size_t body, const BodyView& to, State& s
 /// Makes the present rotations the reference.
 void rebase_bodies(const Model& model, const std::vector<BodyView>& bodies, State& state);
 
+/// Puts phi and omega half-way through a step into `middle`: of the cubic in phi through both ends. Where it
+/// begins phi is 0.
+void bend_turns(const Model& model, double h, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                Eigen::VectorXd& middle);
+
 /// What phi moved by about the principal axes (those of the state's reference), counted from the state's own,
 /// as a move about the world's axes.
 void turn_from_principal_axes(const Model& model, const State& state, Eigen::VectorXd& y);

@@ -25,9 +25,9 @@ bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
   return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
 }
 
-/// Children before their parents, each from its tips. Elimination is a chain of steps that each wait for the
-/// one before; two chains that do not touch, the halves of a rod or two rods side by side, run at once in one
-/// core.
+/// Children before their parents, each from its tips; bodies last. Elimination is a chain of steps that each
+/// wait for the one before; two chains that do not touch, the halves of a rod or two rods side by side, run
+/// at once in one core.
 std::vector<std::size_t> elimination_order(const Model& model) {
   std::vector<std::size_t> order;
   for (auto r = model.order.rbegin(); r != model.order.rend(); ++r) {
@@ -40,6 +40,8 @@ std::vector<std::size_t> elimination_order(const Model& model) {
       if (k < two.size()) order.push_back(two[k]);
     }
   }
+  // A body may couple with many nodes, and one after the other they widen no others' rows but its own.
+  for (std::size_t k = model.nodes; k < model.index_count(); ++k) order.push_back(k);
   return order;
 }
 

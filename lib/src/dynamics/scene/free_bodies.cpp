@@ -20,7 +20,7 @@ FreeBodies::FreeBodies(const Model& model, const std::vector<std::size_t>& node)
   for (const std::size_t i : model.driven_positions) held[body[rod[i]]] = 1;
   std::vector<Body> all(model.rods.size());
   for (std::size_t k = 0; k < node.size(); ++k)
-    if (!model.holds_position(node[k])) all[body[rod[node[k]]]].pivots.push_back(k);
+    if (node[k] < model.nodes && !model.holds_position(node[k])) all[body[rod[node[k]]]].pivots.push_back(k);
   for (std::size_t r = 0; r < all.size(); ++r)
     if (held[r] == 0 && !all[r].pivots.empty()) bodies_.push_back(std::move(all[r]));
 }

@@ -14,7 +14,7 @@ namespace tendril {
 /// Numbers are laid out four a pivot, of which the first three are a place.
 class FreeBodies {
  public:
-  /// \param node  of every pivot
+  /// \param node  of every pivot; those beyond the nodes are rigid bodies, and not looked at
   FreeBodies(const Model& model, const std::vector<std::size_t>& node);
 
   bool empty() const { return bodies_.empty(); }

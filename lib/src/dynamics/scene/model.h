@@ -110,6 +110,17 @@ struct System::Model {
   /// Flat indices of nodes, and of the places and turns of bodies.
   std::size_t index_count() const { return nodes + 2 * bodies.size(); }
 
+  /// Where the three numbers of a flat index stand in y, and their rates.
+  Eigen::Index place_of(std::size_t index) const {
+    if (index < nodes) return 3 * static_cast<Eigen::Index>(index);
+    const auto k = static_cast<Eigen::Index>(index - nodes);
+    return x_begin() + (k % 2) * bodies_span() + 3 * (k / 2);
+  }
+  Eigen::Index rate_of(std::size_t index) const {
+    return place_of(index) + (index < nodes ? v_begin() : 2 * bodies_span());
+  }
+  bool moves(std::size_t index) const { return index >= nodes || !holds_position(index); }
+
   /// Per node, the number of its rod.
   std::vector<std::size_t> rods_of_nodes() const;
 

@@ -10,7 +10,8 @@ namespace tendril {
 
 /// Derivatives of the external forces that do not give their own, by differences: groups of columns, a kind
 /// of coordinate (an axis of p, an axis of v, the angle theta, the spin w) at the nodes of one colour, are
-/// moved together. Nodes of one colour share no row of the pattern.
+/// moved together, and with them an axis of the places, turns and motions of bodies. Nodes of one colour
+/// share no row of the pattern.
 template <int B>
 class Differences {
  public:
@@ -26,33 +27,37 @@ class Differences {
     }
     colour();
     for (std::size_t i = 0; i < model.nodes; ++i) length_ = std::max(length_, model.rest_length[i]);
+    if (model.nodes == 0)
+      for (const RigidBody& body : model.bodies) length_ = std::max(length_, body.size);
   }
 
   /// Adds to the two matrices; returns the evaluations it took, negative when one failed.
   long add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
     long evaluations = 1;
     if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
-    const Eigen::Index n3 = model_.v_begin();
-    const double speed = std::max(state.y.segment(n3, n3).cwiseAbs().maxCoeff(), length_);
-    const auto step_of = [&](std::size_t kind) {
+    double speed = length_;
+    for (std::size_t i = 0; i < model_.index_count(); ++i)
+      if (!is_turn(i)) speed = std::max(speed, state.y.segment<3>(model_.rate_of(i)).cwiseAbs().maxCoeff());
+    const auto step_of = [&](std::size_t i, std::size_t kind) {
+      if (is_turn(i)) return 1e-7 * (kind < 3 ? 1.0 : speed / length_);
       return 1e-7 * (kind < 3 ? length_ : kind < 6 ? speed : kind == kAngle ? 1.0 : speed / length_);
     };
     for (const auto& nodes : coloured_)
       for (std::size_t kind = 0; kind < kinds_; ++kind) {
-        const double step = step_of(kind);
         moved_ = state.y;
         bool any = false;
         for (const std::size_t i : nodes) {
           const Eigen::Index place = place_of(i, kind);
           any = any || place >= 0;
-          if (place >= 0) moved_[place] += step;
+          if (place >= 0) moved_[place] += step_of(i, kind);
         }
         if (!any) continue;
         ++evaluations;
         if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
-        dy_ = (dy_ - base_) / step;
+        dy_ -= base_;
         for (const std::size_t i : nodes)
-          if (place_of(i, kind) >= 0) take(i, kind, kind < 3 || kind == kAngle ? by_x : by_u);
+          if (place_of(i, kind) >= 0)
+            take(i, kind, step_of(i, kind), kind < 3 || kind == kAngle ? by_x : by_u);
       }
     return evaluations;
   }
@@ -60,9 +65,9 @@ class Differences {
  private:
   /// Greedily, in the order of the nodes: the least colour that no node two couplings away has.
   void colour() {
-    std::vector<std::size_t> colours(model_.nodes, kNone);
+    std::vector<std::size_t> colours(model_.index_count(), kNone);
     std::vector<std::size_t> taken_by;
-    for (std::size_t i = 0; i < model_.nodes; ++i) {
+    for (std::size_t i = 0; i < model_.index_count(); ++i) {
       taken_by.resize(std::max(taken_by.size(), coloured_.size()), kNone);
       for (const std::size_t j : neighbours_[i])
         for (const std::size_t k : neighbours_[j])
@@ -75,22 +80,25 @@ class Differences {
     }
   }
 
+  /// Whether the numbers of an index are those of a body's turn.
+  bool is_turn(std::size_t i) const { return i >= model_.nodes && (i - model_.nodes) % 2 == 1; }
+
   Eigen::Index place_of(std::size_t i, std::size_t kind) const {
-    const auto axis = static_cast<Eigen::Index>(3 * i + kind % 3);
-    if (kind < 6) return model_.holds_position(i) ? -1 : axis + (kind < 3 ? 0 : model_.v_begin());
-    if (!(model_.inverse_inertia[i] > 0.0)) return -1;
+    const auto axis = static_cast<Eigen::Index>(kind % 3);
+    if (kind < 6) return model_.moves(i) ? axis + (kind < 3 ? model_.place_of(i) : model_.rate_of(i)) : -1;
+    if (i >= model_.nodes || !(model_.inverse_inertia[i] > 0.0)) return -1;
     return (kind == kAngle ? model_.theta_begin() : model_.spin_begin()) + model_.twist_index[i];
   }
 
-  void take(std::size_t i, std::size_t kind, BlockMatrix<B>& to) {
+  void take(std::size_t i, std::size_t kind, double step, BlockMatrix<B>& to) {
     const std::size_t column = kind < 6 ? kind % 3 : B - 1;
     for (const std::size_t row : neighbours_[i]) {
       auto* block = to.find(row, i);
-      if (!model_.holds_position(row))
+      if (model_.moves(row))
         for (std::size_t r = 0; r < 3; ++r)
-          block->column[column][r] += dy_[model_.v_begin() + static_cast<Eigen::Index>(3 * row + r)];
-      if (B == 4 && model_.inverse_inertia[row] > 0.0)
-        block->column[column][B - 1] += dy_[model_.spin_begin() + model_.twist_index[row]];
+          block->column[column][r] += dy_[model_.rate_of(row) + static_cast<Eigen::Index>(r)] / step;
+      if (B == 4 && row < model_.nodes && model_.inverse_inertia[row] > 0.0)
+        block->column[column][B - 1] += dy_[model_.spin_begin() + model_.twist_index[row]] / step;
     }
   }
 

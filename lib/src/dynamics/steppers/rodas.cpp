@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "dynamics/body/bodies.h"
 #include "dynamics/rhs/rates.h"
 #include "dynamics/vector/combine.h"
 #include "dynamics/vector/finite.h"
@@ -70,8 +71,13 @@ struct Rodas::Implementation {
     if (state.y.head(places) != end_y.head(places)) return false;
     const auto m = static_cast<Eigen::Index>(model.twist_nodes);
     if (state.y.segment(rest, m) != end_y.segment(rest, m)) return false;
+    const Eigen::Index k = model.bodies_span();
+    const Eigen::Index x = model.x_begin();
+    if (state.y.segment(x, k) != end_y.segment(x, k)) return false;
+    if (state.y.segment(x + 2 * k, 2 * k) != end_y.segment(x + 2 * k, 2 * k)) return false;
     rate.swap(end);
     end.resize(0);
+    rate.segment(x + k, k) = state.y.segment(x + 3 * k, k);
     for (std::size_t i = 0; i < model.nodes; ++i)
       if (model.has_twist(i))
         rate[model.theta_begin() + model.twist_index[i]] =
@@ -115,6 +121,8 @@ struct Rodas::Implementation {
     };
     bend(0, n, n);
     if (m > 0) bend(model.theta_begin(), model.spin_begin(), m);
+    bend(model.x_begin(), model.x_begin() + 2 * model.bodies_span(), model.bodies_span());
+    bend_turns(model, h, state.y, y, middle);
     evaluations += 2;
     // Springs that only store energy do no work; they are left out where nothing else asks for their forces.
     if (const Evaluation ok =

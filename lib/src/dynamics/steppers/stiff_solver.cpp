@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "body_blocks.h"
 #include "differences.h"
 #include "dynamics/coupling/elimination.h"
 #include "dynamics/linear/block_route.h"
@@ -66,7 +67,7 @@ class OwnDerivatives : public LoadDerivatives {
 
  private:
   void add(BlockMatrix<B>& to, std::size_t i, std::size_t j, const Mat3& k) {
-    if (std::max(i, j) >= model_.nodes) refuse(i, j);
+    if (std::max(i, j) >= model_.index_count()) refuse(i, j);
     if (!model_.feels[i]) return;
     auto* block = to.find(model_.carrier[i], model_.carrier[j]);
     if (!block) refuse(i, j);
@@ -89,14 +90,15 @@ class BlockSolver : public StiffSolver {
         model_(model_of(system)),
         work_(work),
         loaded_(depends_on_state(model_)),
-        rates_matter_(B == 4 || loaded_),
+        rates_matter_(B == 4 || loaded_ || !model_.bodies.empty()),
         timed_(depends_on_time(model_)),
         pattern_(pattern_of_equations(model_)),
         by_x_(pattern_, !rates_matter_),
         to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
         b_(4 * pattern_.size()),
-        x_(4 * pattern_.size()) {
+        x_(4 * pattern_.size()),
+        rigid_(model_, pattern_) {
     if (rates_matter_) {
       by_u_.emplace(pattern_, false);
       to_u_.emplace(*by_u_);
@@ -123,8 +125,11 @@ class BlockSolver : public StiffSolver {
       add_turning();
       if (turning_ && !turning_->add(state, rate, work_.kinematics, to_x_)) return -1;
     }
-    if (loaded_) {
+    if (loaded_ || !model_.bodies.empty()) {
       if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
+      if (by_u_) rigid_.add(work_.kinematics.bodies, rate, by_x_, *by_u_);
+    }
+    if (loaded_) {
       StateView seen = view(model_, state.time, work_.kinematics, work_.loads);
       for (const Model::Acting& acting : model_.acting) {
         if (!acting.couplings.any() || !acting.couplings.derivatives()) continue;
@@ -153,6 +158,7 @@ class BlockSolver : public StiffSolver {
       for (std::size_t c = 0; c < B; ++c)
         diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
     }
+    if (by_u_) rigid_.add_inertia(s, *by_u_, matrix_);
     if (links_.empty())
       for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
     for (const Link& link : links_) add_connection(s, link);
@@ -169,9 +175,10 @@ class BlockSolver : public StiffSolver {
         x_[4 * k + c] = r[x];
         b_[4 * k + c] = mass_[4 * k + c] * (r[u] + s * r[x]) + damping_[4 * k + c] * r[x];
       };
-      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, rate_[k] + c);
       if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
+    rigid_.put_right(s, r, b_.data());
     if (bodies_) bodies_->keep(b_.data());
     if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
@@ -183,10 +190,11 @@ class BlockSolver : public StiffSolver {
         result[x] = b_[4 * k + c];
         result[u] = s * b_[4 * k + c] - x_[4 * k + c];
       };
-      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, model_.v_begin() + place_[k] + c);
+      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, rate_[k] + c);
       if (B == 4 && angle_[k] >= 0)
         take(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
     }
+    rigid_.take_turning(b_.data(), result);
     for (const Connection& c : connections_)
       result[model_.spin_begin() + model_.twist_index[c.node]] -= turned_by(c);
   }
@@ -202,11 +210,22 @@ class BlockSolver : public StiffSolver {
     damping_.assign(b_.size(), 0.0);
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const std::size_t i = pattern_.node(k);
-      place_.push_back(static_cast<Eigen::Index>(3 * i));
+      place_.push_back(model_.place_of(i));
+      rate_.push_back(model_.rate_of(i));
+      if (i >= model_.nodes) {
+        lay_out_body(k, (i - model_.nodes) % 2 == 0 ? model_.bodies[(i - model_.nodes) / 2].mass : 0.0);
+        continue;
+      }
       angle_.push_back(B == 4 ? model_.twist_index[i] : -1);
       for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
       if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
     }
+  }
+  /// The inertia of a turn is no number an axis: see BodyBlocks.
+  void lay_out_body(std::size_t k, double mass) {
+    angle_.push_back(-1);
+    for (std::size_t c = 0; c < 3; ++c) mass_[4 * k + c] = mass;
+    if (B == 4) held_.push_back({pattern_.node(k), 3});
   }
   void set(std::size_t k, std::size_t c, bool free, double mass) {
     if (!free) {
@@ -342,9 +361,11 @@ class BlockSolver : public StiffSolver {
   std::vector<Connection> connections_;
   std::vector<Link> links_;
   std::vector<Held> held_;
-  std::vector<Eigen::Index> place_, angle_;  ///< per pivot, of its node in p, and in theta or -1
+  std::vector<Eigen::Index> place_, rate_;  ///< per pivot, of its three numbers in y
+  std::vector<Eigen::Index> angle_;         ///< likewise, in theta, or -1
   std::optional<FreeBodies> bodies_;
   std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
+  BodyBlocks<B> rigid_;
   std::optional<ViscousTurning> turning_;
   Eigen::VectorXd gradient_;
 };
@@ -352,8 +373,6 @@ class BlockSolver : public StiffSolver {
 }  // namespace
 
 std::unique_ptr<StiffSolver> make_stiff_solver(const System& system, System::Workspace& work) {
-  if (system.body_count() > 0)
-    throw InvalidInput("method", "an implicit one with free bodies", "an explicit method");
   if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work);
   return std::make_unique<BlockSolver<3>>(system, work);
 }

@@ -13,10 +13,10 @@ namespace tendril {
 ///     (s^2 M - s F_u - F_x - s M C + F_u C) U_x = M r_u + s M r_x - F_u r_x,   U_u = (s - C) U_x - r_x.
 ///
 /// Blocks of three or four numbers a node, eliminated from the rods' tips to their roots and from children to
-/// parents: O(n) time and memory. Without twist and loads that depend on the state everything is symmetric,
-/// and only half of it is kept.
+/// parents, then two of three a body: O(n) time and memory. Without twist, bodies and loads that depend on
+/// the state everything is symmetric, and only half of it is kept.
 ///
-/// Exact are the derivatives of the springs, of the gyroscopic force, of the connection term, and those that
+/// Exact are the derivatives of the springs, of the gyroscopic forces, of the connection term, and those that
 /// external forces give of their own; how fast the directions of viscous springs turn is taken by a central
 /// difference along the motion. Other external forces that depend on the state are differentiated by
 /// differences, coloured so that nodes that share no row share an evaluation.
