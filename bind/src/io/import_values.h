@@ -74,6 +74,10 @@ template <class Cursor>
   in.fail("a face of " + in.found() + " corners", "a whole number of at least 3 corners");
 }
 template <class Cursor>
+[[noreturn, gnu::noinline]] void refuse_size(const Cursor& in) {
+  in.fail("more than 2^32 - 1 corners in all", "a smaller mesh");
+}
+template <class Cursor>
 [[noreturn, gnu::noinline]] void refuse_corner(const Cursor& in, std::size_t points) {
   in.fail("vertex index " + in.found(), "a whole number in [0, " + std::to_string(points) + ")");
 }
@@ -85,10 +89,10 @@ double finite(const Cursor& in, double value, const char* what) {
 }
 
 template <class Cursor>
-void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
+[[gnu::always_inline]] inline void add_face(const Cursor& in, PolygonMesh& mesh, double degree) {
   if (!(degree >= 3 && is_whole(degree))) refuse_degree(in);
   const double corners = static_cast<double>(mesh.corners.size()) + degree;
-  if (corners > id_limit) in.fail("more than 2^32 - 1 corners in all", "a smaller mesh");
+  if (corners > id_limit) refuse_size(in);
   mesh.face_begin.push_back(static_cast<std::uint32_t>(corners));
 }
 

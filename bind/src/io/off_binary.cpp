@@ -85,6 +85,7 @@ class BinaryBody {
     while (mesh_.corners.size() < end) add_corner(in_, mesh_, in_.number(Scalar::int32), header_.vertices);
     if (!color_counts_) return;
     const std::size_t components = read_count(in_, "color values");
+    if (components == 0) return attributes_.face_colors.add_none();  // the most frequent by far
     if (components == 2 || components > 4) in_.fail(in_.found() + " color values", "0, 1, 3 or 4");
     read_color(components, attributes_.face_colors);
   }
