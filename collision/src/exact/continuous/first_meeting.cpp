@@ -167,12 +167,12 @@ class Search {
     if (is_zero(determinant))
       in_one_plane();
     else
-      look_at_roots(determinant);
+      take_roots(determinant);
     return first_;
   }
 
  private:
-  void look_at_roots(const Polynomial& p) {
+  void take_roots(const Polynomial& p) {
     Root root;
     if (is_zero(p) || !find_root(
                           p, free_until_, [&](const Root& at) { return coplanar_.meet(at); }, root))
@@ -193,16 +193,16 @@ class Search {
   void in_one_plane() {
     Polynomial beginning{1, {}};
     beginning.c[1] = 1;
-    look_at_roots(beginning);
+    take_roots(beginning);
     if (first_.meeting == Meeting::hit) return;
     for (int axis = 0; axis < 3; ++axis)
-      if (look_at_all(coplanar_.weights(axis))) return;
-    for (int axis = 0; axis < 3; ++axis) look_at_all(coplanar_.differences(axis));
+      if (take_all(coplanar_.weights(axis))) return;
+    for (int axis = 0; axis < 3; ++axis) take_all(coplanar_.differences(axis));
   }
 
   /// \return  whether any is not zero throughout
-  bool look_at_all(const std::vector<Polynomial>& polynomials) {
-    for (const Polynomial& p : polynomials) look_at_roots(p);
+  bool take_all(const std::vector<Polynomial>& polynomials) {
+    for (const Polynomial& p : polynomials) take_roots(p);
     return std::any_of(polynomials.begin(), polynomials.end(),
                        [](const Polynomial& p) { return !is_zero(p); });
   }

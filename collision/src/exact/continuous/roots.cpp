@@ -74,8 +74,8 @@ class Narrowing {
 
   const Root& root() const { return root_; }
 
-  /// Looks beside an approximate root, ever farther from it until the sign changes. Where doubles tell the
-  /// root well the bracket becomes 2^-42 of its width; half of it always.
+  /// Splits the bracket beside an approximate root, ever farther from it until the sign changes. Where
+  /// doubles tell the root well the bracket becomes 2^-42 of its width; half of it always.
   void sharpen(const Polynomial& there) {
     const auto [low, width, exponent] = common();
     const Integer start = low << finer;
@@ -83,12 +83,12 @@ class Narrowing {
       return Dyadic{start + w * steps, e + finer};
     };
     const auto guess = static_cast<std::int64_t>(std::llround(std::ldexp(approximate_root_of(there), finer)));
-    look(point(guess));
+    split_at(point(guess));
     const bool above = guess == 0 || !less(root_.low, point(guess));
     for (std::int64_t step = reach; !is_within(width * (2 * reach), exponent + finer) && step < most_steps;
          step <<= 7)
-      look(point(above ? guess + step : guess - step));
-    if (!is_within(width, exponent + 1)) look(between(root_.low, root_.high));
+      split_at(point(above ? guess + step : guess - step));
+    if (!is_within(width, exponent + 1)) split_at(between(root_.low, root_.high));
   }
 
   bool is_narrow() const { return is_within(Integer(2 * reach), grid); }
@@ -111,7 +111,7 @@ class Narrowing {
     return (width << (most - exponent)) <= (units << (most - e));
   }
 
-  void look(const Dyadic& t) {
+  void split_at(const Dyadic& t) {
     if (!less(root_.low, t) || !less(t, root_.high)) return;
     const int sign = sign_at(*root_.p, t);
     if (sign != -before_) root_.low = t;

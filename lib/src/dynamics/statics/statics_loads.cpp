@@ -40,7 +40,7 @@ StaticLoads::StaticLoads(const System& system, const StaticCoordinates& coordina
   for (auto* vectors : {&p_, &v_, &t_, &m_, &force_, &torque_}) vectors->assign(n, Vec3::Zero());
 }
 
-StateView StaticLoads::look(const State& state, const std::vector<Frame>& frames) {
+StateView StaticLoads::view_of(const State& state, const std::vector<Frame>& frames) {
   for (std::size_t i = 0; i < p_.size(); ++i) {
     p_[i] = at(state.y, i);
     t_[i] = frames[i].z;
@@ -56,7 +56,7 @@ Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& pote
   if (!any()) return {};
   const std::vector<Frame> frames = system_.frames(state, work);
   if (frames.empty()) return {Evaluation::Outcome::not_finite, 0};
-  StateView view = look(state, frames);
+  StateView view = view_of(state, frames);
   std::size_t refused = Loads::kNone;
   Loads loads{force_, torque_};
   loads.refused = &refused;

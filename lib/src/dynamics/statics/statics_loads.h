@@ -40,7 +40,7 @@ class StaticLoads {
     /// Without an energy, and the same in every state.
     bool dead() const { return acting && !acting->has_energy && !acting->couplings.any(); }
   };
-  StateView look(const State& state, const std::vector<Frame>& frames);
+  StateView view_of(const State& state, const std::vector<Frame>& frames);
   void add_living(const External& one, const State& state, StateView& view, const Loads& loads,
                   double& potential) const;
   void pass_to_parents();
