@@ -39,6 +39,10 @@ Line evenly(const Line& line, std::size_t count) {
   return out;
 }
 
+/// Minimises sum_k |sum_j N_j(t_k) u_j - p_k|^2 over the inner control points: u_0 and the last are the ends
+/// of the line, whose part goes to the right side, sum_j (sum_k N_i N_j) u_j = sum_k N_i (p_k - N_0 u_0 - N_m
+/// u_m). The normal matrix is definite as long as every function has a sample in its support: fit() asks for
+/// at most one control point in two samples. Its condition is some tens for uniform cubics.
 BSpline least_squares(const Line& points, int control_points) {
   const KnotVector knots = KnotVector::uniform(3, control_points);
   const Eigen::Index inner = control_points - 2;

@@ -79,6 +79,10 @@ class LongestChains {
 
 }  // namespace
 
+// The longest path of a tree has an end that is farthest from whatever vertex one starts at: were the
+// farthest vertex x from v none, replacing the far half of the longest path, where the way from v meets it,
+// by the way to x would make a longer one. So two searches find it. What is left hangs on it, and is taken
+// apart by the same rule, a chain as long as can be from each vertex that a path runs through.
 std::vector<Path> paths_of(const BranchGraph& tree) {
   std::vector<Path> out;
   if (tree.branches.empty()) return out;

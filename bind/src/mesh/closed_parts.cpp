@@ -48,6 +48,12 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2.0 * std::atan2(a.dot(b.cross(c)), down);
 }
 
+// A part is closed when it has no boundary as a chain: each edge is run through as often one way as the
+// other. (An edge of four faces, where two parts touch, is no hole.) By the divergence theorem the tetrahedra
+// that fans of its faces form with any point then have the volume it encloses as their signed sum, the
+// point's own part cancelling; the part's own corner keeps them small. The solid angles of all other faces,
+// as seen from a point of the part, sum to 4 pi times how often they wind round it: 0 outside, 4 pi within.
+
 }  // namespace
 
 ClosedPart::ClosedPart(const PolygonMesh& mesh, std::span<const Face> faces) {

@@ -169,6 +169,11 @@ JudgeReport TearJudge::judge(std::span<const CurvePair> posed) const {
   return report;
 }
 
+// Why stretch is judged by its growth from one mesh to its refinement. Where the binding is smooth, an edge
+// half as long is stretched as much as before, and quantiles settle. Across a tear two neighbours go apart by
+// a distance that does not shrink with the edge, so its stretch doubles; the edges that cross a tear along a
+// line double in number too, while all edges grow fourfold, hence the exponent 1 of their count (2 for
+// stretch all over a surface, 0 at points).
 void TearJudge::conclude(JudgeReport& report) const {
   for (std::size_t k = 1; k < report.levels.size(); ++k) {
     const JudgeLevel &before = report.levels[k - 1], &now = report.levels[k];

@@ -102,6 +102,11 @@ Interpolator::Interpolator(int degree, Points rest, Parametrisation how)
   factor();
 }
 
+/// Gaussian elimination without pivoting, within the band. The matrix N_j(r_i) of B-splines is totally
+/// positive, and regular as the averaged knots put each r_i inside the support of its own function
+/// (Schoenberg and Whitney) [de Boor 2001]. For such matrices the factors of every elimination are not
+/// negative, so no entry grows, and the factors without pivoting are backward stable
+/// [de Boor and Pinkus 1977]; exchanges of rows would only fill the band.
 void Interpolator::factor() {
   const std::size_t n = parameters_.size();
   for (std::size_t k = 0; k < n; ++k) {

@@ -38,6 +38,10 @@ FrameChoice frame_towards(const Vec3& z, const Vec3& offset) {
   return {Frame{x, z.cross(x), z}, status, sine};
 }
 
+/// The smallest rotation from a to b (unit vectors) is the mirroring in the plane across a followed by that
+/// across a + b, as a turns into -a and then into b: v - 2 a (a.v), and then, with s = a + b, v - s (2 s.v /
+/// s^2) + 2 (a.v) b, since mirroring -a in the plane across s gives b. No angle, no axis, and no loss of
+/// digits but where b nears -a, where the axis is free.
 Vec3 rotate_smallest(const Vec3& from, const Vec3& to, const Vec3& v) {
   const Vec3 sum = from + to;
   const double square = sum.squaredNorm();  // 2 (1 + a.b) without its cancellation near a half turn

@@ -121,7 +121,11 @@ class SectionReader {
   std::vector<double> a_, b_;
 };
 
-/// make_rod of the library for one material and section, then scaled by what varies along the chain.
+/// make_rod of the library for one material and section, then scaled by what varies along the chain. Its
+/// springs are a constant of the section, E A, E I or G J, over lengths of the chain alone. So a section of
+/// its own makes of a spring the ratio of the two constants, at an edge's middle for what stretches and
+/// twists and at a node for what bends. Masses are summed anew: a node takes half of either edge's mass, with
+/// the section at that edge's middle, so that a taper has the mass of its edges' midpoint rule.
 Rod with_sections(const Chain& chain, const Material& material, const SectionReader& sections) {
   const Section first = sections.at(chain.where.front());
   Rod rod = make_rod(chain.p, chain.q, material, first);

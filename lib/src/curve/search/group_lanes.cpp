@@ -4,6 +4,8 @@
 
 namespace tendril::search {
 
+// The point of the segment a + s d, 0 <= s <= 1, nearest to p is at s = (p - a) . d / d^2, taken to the ends
+// of the interval. Where the piece's ends meet, 1 / d^2 is stored as 0, and s is 0.
 TENDRIL_LANES void measure_piece(GroupLanes& group, const NearPiece& piece, double number, double* square) {
   TENDRIL_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {

@@ -39,6 +39,11 @@ struct Best {
   }
 };
 
+/// Why a point gets the same bits here as alone. Every piece whose lower bound lies within the cut is
+/// resolved by the arithmetic of the search of one point, on the same numbers; a piece that the lanes skip is
+/// beyond the cut by more than `slack`, which that search would drop too, in whatever order it met the
+/// pieces. What is compared in the end are the candidates within the cut; where two of them could win, or a
+/// lane proves less than the search of one point demands, that search is made.
 template <int P>
 class ProjectionBatch final : public CurveProjector::Data::Batch {
  public:
@@ -72,6 +77,10 @@ class ProjectionBatch final : public CurveProjector::Data::Batch {
   }
 
  private:
+  /// Of a point p of the box and its centre c, |p - c| <= a / 2 with the diagonal a, so a distance from p
+  /// differs by at most a / 2 from that from c. With u the least upper bound on the distance of a piece from
+  /// c, every p has a piece within u + a / 2, and a piece whose capsule is farther than u + a from c is
+  /// farther than u + a / 2 from p: it is nearest to none.
   /// Pieces that may be nearest to a point of the box; false when they are too many.
   bool gather(const Eigen::AlignedBox3d& box, double slack) {
     const Vec3 centre = box.center();

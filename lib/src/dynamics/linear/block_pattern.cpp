@@ -18,6 +18,11 @@ BlockPattern::BlockPattern(std::vector<std::size_t> order,
   if (complete_) index();
 }
 
+// Eliminating pivot k couples all its later neighbours with each other. It is enough to hand the list over to
+// the first of them, f: the pairs with f are those of f's list from now on, and the others (a, b) arise again
+// when f, which couples with both, is eliminated, since f < a, b. So each list is the pattern of a column of
+// L, which lies but for its first entry in that of its parent in the elimination tree, and no pair is listed
+// that elimination does not fill.
 bool BlockPattern::eliminate(std::vector<std::vector<std::size_t>>& neighbours, std::size_t most) {
   std::size_t products = 0;
   for (std::size_t k = 0; k < size(); ++k) {
