@@ -145,6 +145,9 @@ TEST(ReleasedAnchor, ThatLeavesAFoldEndsTheRunWithItsReason) {
   Scene scene;
   scene.rods.push_back(test::straight_rod(2, 1e3, 0.01));
   scene.anchors.push_back({.rod = 0, .node = 1, .until = 1e-9});
+  // Springs at a held frame reach half a turn, so there are none.
+  for (auto* springs : {&scene.rods[0].bend_l, &scene.rods[0].bend_m, &scene.rods[0].bend_t})
+    (*springs)[1] = 0.0;
   const System system(scene);
   State folded = system.rest_state();
   folded.y.segment<3>(6) = folded.y.segment<3>(0);

@@ -18,9 +18,9 @@ struct Rod {
   std::vector<double> inertia;  ///< per node, for the spin about the tangent [mass length^2]
 
   std::vector<double> stretch;  ///< per edge, K_s: 1/2 K_s (|e| - L)^2 [force / length]
-  /// Per node [torque / rad]: 1/2 K (asin(e.l) - rest)^2 for each adjacent edge e.
+  /// Per node [torque / rad], for each adjacent edge e: 1/2 K (phi e.l / sin(phi) - rest)^2, phi from t to e.
   std::vector<double> bend_l;
-  std::vector<double> bend_m;  ///< the same of asin(e.m)
+  std::vector<double> bend_m;  ///< the same of phi e.m / sin(phi)
   std::vector<double> bend_t;  ///< the same of the angle between e and t, the third spring of [Chan 2008]
   std::vector<double> twist;   ///< per edge, K_w: 1/2 K_w (tau - rest)^2 [torque / rad]
   std::vector<double> width;   ///< per edge, for drag [length]

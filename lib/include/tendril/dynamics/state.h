@@ -37,7 +37,7 @@ struct Evaluation {
   enum class Outcome {
     ok,              ///< evaluated
     zero_edge,       ///< an edge of length 0
-    fold_back,       ///< two opposite edges at a node: it has no tangent
+    fold_back,       ///< two opposite edges at a node, or one past half a turn from a held frame
     turned_too_far,  ///< a tangent or a body turned by over 126 degrees from its reference
     not_finite,      ///< a number that overflowed, or was not finite to begin with
     not_converged,   ///< an implicit step's equations

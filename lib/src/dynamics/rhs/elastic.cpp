@@ -80,79 +80,88 @@ struct Axes {
   V3 l, m, t;
 };
 
+/// What bends a node: the components x, y of half the difference of its edges across the tangent, their
+/// square, and the angle's arc.
+struct Bend {
+  double x, y, across2, sine, z;
+  lanes::Arc arc;
+};
+
+template <Wanted W>
+TENDRIL_INLINE Bend bend_at(double x, double y, double z) {
+  const double across2 = x * x + y * y;
+  if constexpr (W.near) return {x, y, across2, 0.0, 1.0, lanes::near_arc(across2)};
+  const double sine = std::sqrt(across2);
+  return {x, y, across2, sine, z, lanes::arc(across2, sine, z)};
+}
+
 /// k (angle - rest) / (sin angle cos angle), the third spring's slope over the sine.
 template <Wanted W>
-TENDRIL_INLINE double third_slope(double k, double rest, double across2, double z, double& energy) {
-  if constexpr (W.near) return k * lanes::asin_slope(across2);
-  const double sine = std::sqrt(across2);
-  const double strain = lanes::angle(sine, z) - rest;
+TENDRIL_INLINE double third_slope(double k, double rest, const Bend& at, double& energy) {
+  const double inverse_cosine = at.arc.ratio + at.arc.rise * at.across2;
+  if constexpr (W.near) return k * at.arc.ratio * inverse_cosine;
+  const double strain = at.arc.ratio * at.sine - rest;
   if constexpr (W.energy) energy += k * strain * strain;
   // At angle 0 what it is multiplied with is 0.
-  const bool away = sine > 1e-12 && z > 0.0;
-  return away ? k * strain / (away ? sine * z : 1.0) : 0.0;
+  const bool away = at.sine > 1e-12 && at.z > 0.0;
+  return away ? k * strain / (away ? at.sine * at.z : 1.0) : 0.0;
 }
 
-template <Wanted W>
-TENDRIL_INLINE lanes::Deviation deviation(double x, double y, double z) {
-  if constexpr (W.near) return {x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)};
-  return lanes::deviation(x, std::sqrt(y * y + z * z));
-}
-
-/// Slopes of the two deviations, k (asin x - rest) / cos, with what resists.
+/// Slopes by x and y of the two deviations' springs, with what resists: with the deviations r x and r y, r
+/// the arc's ratio, and their forces f_l and f_m, r f + rise (x f_l + y f_m) (x, y).
 struct Slopes {
   double l, m;
 };
 template <Wanted W>
-TENDRIL_INLINE Slopes deviation_slopes(const Columns& c, std::size_t i, const Axes& f, double x, double y,
-                                       double z, double& energy, double& heat) {
-  if constexpr (W.near && W.straight)
-    return {x * (c.k_l[i] * lanes::asin_slope(x * x)), y * (c.k_m[i] * lanes::asin_slope(y * y))};
-  const lanes::Deviation l = deviation<W>(x, y, z);
-  const lanes::Deviation m = deviation<W>(y, x, z);
-  const double strain_l = l.angle - c.rest_l[i];
-  const double strain_m = m.angle - c.rest_m[i];
+TENDRIL_INLINE Slopes deviation_slopes(const Columns& c, std::size_t i, const Axes& f, const Bend& at,
+                                       double& energy, double& heat) {
+  const auto [x, y, across2, sine, z, arc] = at;
+  const double strain_l = W.straight ? arc.ratio * x : arc.ratio * x - c.rest_l[i];
+  const double strain_m = W.straight ? arc.ratio * y : arc.ratio * y - c.rest_m[i];
   double fl = c.k_l[i] * strain_l;
   double fm = c.k_m[i] * strain_m;
   if constexpr (W.energy) energy += fl * strain_l + fm * strain_m;
   if constexpr (W.viscous) {
     const V3 d_rate = 0.5 * (c.e_rate.at(i) - c.e_rate.at(i - 1));
-    const double l_rate = (lanes::dot(d_rate, f.l) + c.spin[i] * y) * l.inverse_cosine;
-    const double m_rate = (lanes::dot(d_rate, f.m) - c.spin[i] * x) * m.inverse_cosine;
+    const double x_rate = lanes::dot(d_rate, f.l) + c.spin[i] * y;
+    const double y_rate = lanes::dot(d_rate, f.m) - c.spin[i] * x;
+    const double rising = arc.rise * (x * x_rate + y * y_rate);
+    const double l_rate = arc.ratio * x_rate + rising * x;
+    const double m_rate = arc.ratio * y_rate + rising * y;
     heat += 2.0 * c.viscosity[i] * (c.k_l[i] * l_rate * l_rate + c.k_m[i] * m_rate * m_rate);
     fl += c.viscosity[i] * c.k_l[i] * l_rate;
     fm += c.viscosity[i] * c.k_m[i] * m_rate;
   }
-  return {fl * l.inverse_cosine, fm * m.inverse_cosine};
+  const double both = arc.rise * (x * fl + y * fm);
+  return {arc.ratio * fl + both * x, arc.ratio * fm + both * y};
 }
 
-/// Bending at node i. With d half the difference of the unit edges b and a at a free node, x = d.l and y =
-/// d.m are the sines of the deviations of b, those of a with the other sign, and d.t = 0. Both edges
-/// together:
-///   E = k_l (asin x - r_l)^2 + k_m (asin y - r_m)^2 + k_t (asin |d| - r_t)^2.
-/// As d.t = 0, a tangent that turns with its director does not change x and y: dx = l.dd + y ds, dy = m.dd -
-/// x ds. The gradient by b is half that by d, that by a its opposite. False where an angle was not small and
-/// was taken for it.
+/// Bending at node i. With d half the difference of the unit edges b and a at a free node, |d| is the sine of
+/// the angle phi that b makes with the tangent between them; x = d.l, y = d.m, and d.t = 0. The turn of b
+/// away from the tangent is phi (x, y) / |d|, that of a the opposite, and both edges together have
+///   E = k_l (phi x / |d| - r_l)^2 + k_m (phi y / |d| - r_m)^2 + k_t (phi - r_t)^2,
+/// in isotropic straight rods K phi^2, as without a twist state (hinge.cpp). As d.t = 0, a tangent that turns
+/// with its director does not change x and y: dx = l.dd + y ds, dy = m.dd - x ds. The gradient by b is half
+/// that by d, that by a its opposite. False where an angle was not small and was taken for it.
 template <Wanted W>
 TENDRIL_INLINE bool bend(const Columns& c, std::size_t i, const Axes& f, double& energy, double& heat) {
   const V3 a = c.e.at(i - 1);
   const V3 b = c.e.at(i);
   const V3 d = 0.5 * (b - a);
-  const double x = lanes::dot(d, f.l);
-  const double y = lanes::dot(d, f.m);
-  const double z = W.near ? 1.0 : 0.5 * lanes::dot(a + b, f.t);
-  const double across2 = x * x + y * y;
-  Slopes g = deviation_slopes<W>(c, i, f, x, y, z, energy, heat);
-  c.g_spin[i] = 2.0 * (g.l * y - g.m * x);
+  const Bend at =
+      bend_at<W>(lanes::dot(d, f.l), lanes::dot(d, f.m), W.near ? 1.0 : 0.5 * lanes::dot(a + b, f.t));
+  Slopes g = deviation_slopes<W>(c, i, f, at, energy, heat);
+  c.g_spin[i] = 2.0 * (g.l * at.y - g.m * at.x);
   bool straight = true;
   if constexpr (W.third) {
     const double rest = W.straight ? 0.0 : c.rest_t[i];
-    const double k = third_slope<W>(c.k_t[i], rest, across2, z, energy);
-    g.l += k * x;
-    g.m += k * y;
+    const double k = third_slope<W>(c.k_t[i], rest, at, energy);
+    g.l += k * at.x;
+    g.m += k * at.y;
     straight = rest == 0.0;
   }
   c.g_bend.put(i, g.l * f.l + g.m * f.m);
-  const bool near = (across2 <= lanes::kNearSquare) & straight;
+  const bool near = (at.across2 <= lanes::kNearSquare) & straight;
   return near | (c.k_l[i] + c.k_m[i] + c.k_t[i] == 0.0);
 }
 
@@ -316,6 +325,21 @@ double resist_stretch(const Model& model, const Segment& segment, const Kinemati
   return heat;
 }
 
+/// The springs at held frames, the last to be added to the gradient.
+Evaluation bend_at_held_nodes(const Model& model, const State& reference, bool viscous, const Kinematics& kin,
+                              Gradient& grad, double& energy, double& heat) {
+  for (const std::size_t node : model.bending.held) {
+    if (past_half_turn(model, reference, node, kin)) return {Evaluation::Outcome::fold_back, node};
+    energy += bend_at_held_frame(model, node, viscous && model.viscosity[node] > 0.0, kin, grad, heat);
+  }
+  for (const std::size_t node : model.bending.held_hinges) {
+    if (past_half_turn(model, reference, node, kin)) return {Evaluation::Outcome::fold_back, node};
+    energy += bend_at_held_hinge(model, node, kin, grad);
+  }
+  grad.made.from(kin);
+  return {};
+}
+
 }  // namespace
 
 Evaluation elastic(const Model& model, const State& reference, Inner inner, const Kinematics& kin,
@@ -333,11 +357,8 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, cons
     if (inner.viscous && s.viscous) heat += resist_stretch(model, s, kin, grad) + sum_of(grad.heat, s);
     if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, kin, grad);
   }
-  for (const std::size_t node : model.bending.held)
-    bend_at_held_frame(model, node, inner.viscous && model.viscosity[node] > 0.0, kin, grad, heat);
-  for (const std::size_t node : model.bending.held_hinges) bend_at_held_hinge(model, node, kin, grad);
-  grad.made.from(kin);
-  return {};
+  double unused = 0.0;
+  return bend_at_held_nodes(model, reference, inner.viscous, kin, grad, unused, heat);
 }
 
 Evaluation elastic_energy(const Model& model, const State& reference, const Kinematics& kin, Gradient& grad,
@@ -356,12 +377,7 @@ Evaluation elastic_energy(const Model& model, const State& reference, const Kine
     if (s.twist) gather_springs(model, s, kin, grad);
   }
   double none = 0.0;
-  for (const std::size_t node : model.bending.held)
-    energy += bend_at_held_frame(model, node, false, kin, grad, none);
-  for (const std::size_t node : model.bending.held_hinges)
-    energy += bend_at_held_hinge(model, node, kin, grad);
-  grad.made.from(kin);
-  return {};
+  return bend_at_held_nodes(model, reference, false, kin, grad, energy, none);
 }
 
 void relax(const Model& model, bool gyroscopic, const Kinematics& kin, Gradient& grad) {

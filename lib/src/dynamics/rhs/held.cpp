@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dynamics/vector/lanes.h"
+#include "kinematics.h"
 
 namespace tendril {
 namespace {
@@ -22,23 +22,6 @@ struct Held {
   bool viscous;
 };
 
-struct Deviations {
-  lanes::Deviation l, m;
-  double t;  ///< the angle to the tangent over its sine
-};
-
-/// The two deviations of a unit edge at components x, y, z, and the third angle.
-Deviations deviations(double x, double y, double z) {
-  const double across2 = x * x + y * y;
-  if (across2 <= lanes::kNearSquare && z >= 0.0)
-    return {{x * lanes::asin_ratio(x * x), lanes::inverse_cosine(x * x)},
-            {y * lanes::asin_ratio(y * y), lanes::inverse_cosine(y * y)},
-            lanes::asin_ratio(across2)};
-  const double sine = std::sqrt(across2);
-  return {lanes::deviation(x, std::sqrt(y * y + z * z)), lanes::deviation(y, std::sqrt(x * x + z * z)),
-          sine > 1e-12 ? lanes::angle(sine, z) / sine : 1.0};
-}
-
 /// The springs of the edge at `side` of a held node (0 before, 1 after).
 Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinematics& kin) {
   const std::size_t i = at.node;
@@ -46,44 +29,62 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinema
   const std::size_t end = 2 * edge + 1 - side;
   const Frame& f = at.frame;
   const Vec3 e = kin.e[edge];
-  const double x = e.dot(f.x);
-  const double y = e.dot(f.y);
-  const double z = e.dot(f.z);
-  const Deviations by = deviations(x, y, z);
-  const double l = by.l.angle - model.rest_l[end];
-  const double m = by.m.angle - model.rest_m[end];
+  const EdgeAngles by = edge_angles(e, f);
+  const double l = by.l - model.rest_l[end];
+  const double m = by.m - model.rest_m[end];
   double fl = model.bend_l[i] * l;
   double fm = model.bend_m[i] * m;
   Given given;
   given.energy = 0.5 * (fl * l + fm * m);
   if (at.viscous) {
-    // Rates with the frame turning by t' and w: m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-    const Vec3 e_rate = kin.rate.e_rate[edge];
     const double viscosity = model.viscosity[edge];
-    const double l_rate = (e_rate.dot(f.x) - f.x.dot(at.t_rate) * z + at.spin * y) * by.l.inverse_cosine;
-    const double m_rate = (e_rate.dot(f.y) - f.y.dot(at.t_rate) * z - at.spin * x) * by.m.inverse_cosine;
-    given.heat = viscosity * (model.bend_l[i] * l_rate * l_rate + model.bend_m[i] * m_rate * m_rate);
-    fl += viscosity * model.bend_l[i] * l_rate;
-    fm += viscosity * model.bend_m[i] * m_rate;
+    const DeviationRates rate = deviation_rates(f, by, kin.rate.e_rate[edge], at.t_rate, at.spin);
+    given.heat = viscosity * (model.bend_l[i] * rate.l * rate.l + model.bend_m[i] * rate.m * rate.m);
+    fl += viscosity * model.bend_l[i] * rate.l;
+    fm += viscosity * model.bend_m[i] * rate.m;
   }
-  const double gl = fl * by.l.inverse_cosine;
-  const double gm = fm * by.m.inverse_cosine;
+  const double both = by.x * fl + by.y * fm;
+  const double gl = by.ratio * fl + both * by.rise * by.x;
+  const double gm = by.ratio * fm + both * by.rise * by.y;
   // d(angle) = -(de.t + e.dt) / sin(angle); at angle 0 the limit for a rest of 0, nothing at the tip of a
   // rest cone.
-  const double sine = std::sqrt(x * x + y * y);
   const double rest = model.rest_t[end];
-  const double third = by.t * sine - rest;
+  const double third = by.t - rest;
   given.energy += 0.5 * model.bend_t[i] * third * third;
-  double g = model.bend_t[i] * by.t;
-  if (rest > 0.0) g = sine > 1e-12 ? model.bend_t[i] * third / sine : 0.0;
+  double g = model.bend_t[i] * by.ratio;
+  if (rest > 0.0) g = by.st > 1e-12 ? model.bend_t[i] * third / by.st : 0.0;
+  g += both;
   const Vec3 across = gl * f.x + gm * f.y;
   given.edge = across - g * f.z;
-  given.tangent = -z * across - g * e;
-  given.spin = gl * y - gm * x;
+  given.tangent = -by.z * across - g * e;
+  given.spin = gl * by.y - gm * by.x;
   return given;
 }
 
+/// Whether the edge from node i on does so against the frame of a node at one of its ends.
+bool turned_through(const State& reference, std::size_t node, std::size_t i, const Kinematics& kin) {
+  const Vec3 e = kin.e[i];
+  const Vec3 t = kin.frame.z[node];
+  const double z = e.dot(t);
+  if (!(z < -0.5)) return false;
+  const Vec3 across = e - z * t;
+  if (!(across.norm() >= kFoldBack)) return true;
+  const auto place = [&](std::size_t k) {
+    return Vec3(reference.y.segment<3>(3 * static_cast<Eigen::Index>(k)));
+  };
+  const Vec3 before = (place(i + 1) - place(i)).normalized();
+  const Vec3& t_before = reference.tangent[node];
+  const double z_before = before.dot(t_before);
+  return z_before < -0.5 && across.dot(before - z_before * t_before) < 0.0;
+}
+
 }  // namespace
+
+bool past_half_turn(const Model& model, const State& reference, std::size_t node, const Kinematics& kin) {
+  if (model.bend_l[node] + model.bend_m[node] + model.bend_t[node] == 0.0) return false;
+  return (model.has_before(node) && turned_through(reference, node, node - 1, kin)) ||
+         (model.has_after(node) && turned_through(reference, node, node, kin));
+}
 
 double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const Kinematics& kin,
                           Gradient& grad, double& heat) {

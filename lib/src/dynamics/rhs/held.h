@@ -4,11 +4,16 @@
 
 namespace tendril {
 
-/// The springs between the edges at a node and its held frame, of a rod without twist: 1/2 K angle^2 each.
-/// What they give the edges goes to g_before and g_after. Returns the energy.
+/// Whether an edge at a held frame points straight against it, or has turned through that since the
+/// reference: past half a turn its angle tells another way to bend.
+bool past_half_turn(const Model& model, const State& reference, std::size_t node, const Kinematics& kin);
+
+/// The springs between the edges at a node and its held frame, of a rod without twist: 1/2 K angle^2 each, up
+/// to half a turn. What they give the edges goes to g_before and g_after. Returns the energy.
 double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics& kin, Gradient& grad);
 
-/// The same for a rod with twist; adds what the frame feels. With `viscous` each but the third resists.
+/// The same for a rod with twist, the angle split into those about the frame's two axes; adds what the frame
+/// feels. With `viscous` each but the third resists.
 double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const Kinematics& kin,
                           Gradient& grad, double& heat);
 

@@ -55,7 +55,6 @@ void check_rod(const Rod& rod, std::size_t index) {
 }
 
 constexpr std::size_t kModelRank = 60;  // of the first column, behind those of a workspace
-constexpr double kStraight = 1e-9;      // rest angle below which a node counts as straight [rad]
 
 }  // namespace
 
@@ -68,25 +67,6 @@ std::string name_of_index(const Model& model, std::size_t index) {
 
 std::string name_of_force(std::size_t index) {
   return "forces[" + std::to_string(index) + "]";
-}
-
-EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
-  EdgeAngles a{};
-  a.x = e.dot(frame.x);
-  a.y = e.dot(frame.y);
-  a.z = e.dot(frame.z);
-  a.cl = std::sqrt(a.y * a.y + a.z * a.z);
-  a.cm = std::sqrt(a.x * a.x + a.z * a.z);
-  a.st = std::sqrt(a.x * a.x + a.y * a.y);
-  a.l = std::atan2(a.x, a.cl);
-  a.m = std::atan2(a.y, a.cm);
-  a.t = std::atan2(a.st, a.z);
-  return a;
-}
-
-double twist_angle(const Frame& before, const Frame& after) {
-  const Vec3 carried = rotate_smallest(before.z, after.z, before.y);
-  return std::atan2(carried.cross(after.y).dot(after.z), carried.dot(after.y));
 }
 
 Model::Model(Scene description, double since) : scene(std::move(description)), from(since) {
@@ -134,22 +114,6 @@ void Model::flatten(const Rod& rod) {
     offset.emplace_back(0.0, d.dot(frames.frame[i].y), d.dot(frames.frame[i].z));
   }
   flatten_rest_angles(range);
-}
-
-void Model::flatten_rest_angles(const NodeRange& range) {
-  for (std::size_t i = range.first; i + 1 < range.first + range.count; ++i) {
-    const Vec3 edge = rest_p[i + 1] - rest_p[i];
-    rest_length[i] = edge.norm();
-    rest_twist[i] = twist_angle(rest_frame[i], rest_frame[i + 1]);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const EdgeAngles a = edge_angles(edge / rest_length[i], rest_frame[i + side]);
-      // Rounding must not give a straight chain a rest cone: the third spring has a kink at its tip.
-      if (!(a.t > kStraight)) continue;
-      rest_l[2 * i + side] = a.l;
-      rest_m[2 * i + side] = a.m;
-      rest_t[2 * i + side] = a.t;
-    }
-  }
 }
 
 void Model::add_anchors() {
@@ -324,58 +288,6 @@ Couplings Model::couplings_of(std::size_t force) const {
                          "flat indices less than the " + std::to_string(nodes) + " nodes" +
                              (bodies.empty() ? "" : " and two a body"));
   return couplings;
-}
-
-void Model::lay_out_springs() {
-  begins.assign(nodes, 0);
-  ends.assign(nodes, 0);
-  for (std::size_t r = 0; r < rods.size(); ++r) {
-    const NodeRange& rod = rods[r];
-    const std::size_t end = rod.first + rod.count;
-    begins[rod.first] = ends[end - 1] = 1;
-    seed.push_back(rod.first);
-    for (std::size_t i = rod.first; i < end; ++i)
-      if (holds_frame(i)) seed[r] = i;
-    const bool third =
-        std::any_of(bend_t.begin() + static_cast<std::ptrdiff_t>(rod.first),
-                    bend_t.begin() + static_cast<std::ptrdiff_t>(end), [](double k) { return k > 0.0; });
-    const bool straight = std::all_of(rest_t.begin() + static_cast<std::ptrdiff_t>(2 * rod.first),
-                                      rest_t.begin() + static_cast<std::ptrdiff_t>(2 * end),
-                                      [](double rest) { return rest == 0.0; });
-    const Segment own{rod.first, end, has_twist(rod.first), third, straight, scene.rods[r].viscosity > 0.0};
-    const bool alike =
-        !segments.empty() && segments.back().twist == own.twist &&
-        (!own.twist || (segments.back().third == own.third && segments.back().straight == own.straight &&
-                        segments.back().viscous == own.viscous));
-    if (alike)
-      segments.back().end = end;
-    else
-      segments.push_back(own);
-  }
-  std::size_t rank = kModelRank + 5;
-  for (auto* numbers : {&bending.k_l, &bending.k_m, &bending.k_t, &bending.rest_l, &bending.rest_m,
-                        &bending.rest_t, &bending.hinge})
-    *numbers = Column(nodes, rank++);
-  for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
-}
-
-void Model::lay_out_bending(std::size_t i) {
-  if (holds_frame(i)) {
-    (has_twist(i) ? bending.held : bending.held_hinges).push_back(i);
-  } else if (has_before(i) && has_after(i)) {
-    if (!has_twist(i)) {
-      bending.hinge[i] = bend_l[i] + bend_t[i];
-      return;
-    }
-    const std::size_t before = 2 * i - 1;
-    const std::size_t after = 2 * i;
-    bending.k_l[i] = bend_l[i];
-    bending.k_m[i] = bend_m[i];
-    bending.k_t[i] = bend_t[i];
-    bending.rest_l[i] = 0.5 * (rest_l[after] - rest_l[before]);
-    bending.rest_m[i] = 0.5 * (rest_m[after] - rest_m[before]);
-    bending.rest_t[i] = 0.5 * (rest_t[after] + rest_t[before]);
-  }
 }
 
 }  // namespace tendril

@@ -9,7 +9,7 @@ const char* describe(Evaluation::Outcome outcome) {
     case Evaluation::Outcome::zero_edge:
       return "edge of length 0";
     case Evaluation::Outcome::fold_back:
-      return "edges folded back on each other";
+      return "edges folded back by half a turn";
     case Evaluation::Outcome::turned_too_far:
       return "tangent or body turned more than 126 degrees";
     case Evaluation::Outcome::not_finite:

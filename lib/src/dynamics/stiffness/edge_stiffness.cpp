@@ -211,14 +211,16 @@ std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Kinematic
   for (std::size_t side = 0; side < 2; ++side) {
     const Frame f = kin.frame[i + side];
     const EdgeAngles a = edge_angles(kin.e[i], f);
-    Slope& l = all[2 * side];
-    l.e = f.x / a.cl;
-    l.t[side] = -a.z * l.e;
-    l.theta[side] = a.y / a.cl;
-    Slope& m = all[2 * side + 1];
-    m.e = f.y / a.cm;
-    m.t[side] = -a.z * m.e;
-    m.theta[side] = -a.x / a.cm;
+    const Vec3 e = kin.e[i];
+    const auto set = [&](Slope& to, double by_x, double by_y, double by_z) {
+      const Vec3 across = by_x * f.x + by_y * f.y;
+      to.e = across + by_z * f.z;
+      to.t[side] = by_z * e - a.z * across;
+      to.theta[side] = by_x * a.y - by_y * a.x;
+    };
+    const double mixed = a.rise * a.x * a.y;
+    set(all[2 * side], a.ratio + a.rise * a.x * a.x, mixed, -a.x);
+    set(all[2 * side + 1], mixed, a.ratio + a.rise * a.y * a.y, -a.y);
   }
   const Vec3 ta = kin.frame.z[i];
   const Vec3 tb = kin.frame.z[i + 1];

@@ -1,6 +1,9 @@
 #include "spring_stiffness.h"
 
 #include <cmath>
+#include <utility>
+
+#include "dynamics/vector/lanes.h"
 
 namespace tendril {
 namespace {
@@ -9,86 +12,97 @@ Mat3 projector(const Vec3& n) {
   return Mat3::Identity() - n * n.transpose();
 }
 
-/// First and second derivatives of one of the components e.l, e.m, e.t by e, t and theta of one node. By e
-/// alone they have no second derivative.
-struct Component {
-  Vec3 e, t;
-  double theta;
-  Mat3 et, tt;
-  Vec3 e_theta, t_theta;
-  double theta_theta;
-};
-
-/// The frame carried by the smallest rotation to t = t_s + d, then turned by theta, to second order, with
-/// a = d.l, b = d.m:
+/// Adds W(x, y, z) of the components e.l, e.m and e.t at node `side`, by its gradient and Hessian:
+/// J W'' J^T and what the components' own second derivatives add. By e alone they have none. The frame
+/// carried by the smallest rotation to t = t_s + d, then turned by theta, is to second order, with a = d.l
+/// and b = d.m,
 ///
 ///   l -> l - a t + theta m - a d / 2 - theta^2 l / 2 - theta b t
 ///   m -> m - b t - theta l - b d / 2 - theta^2 m / 2 + theta a t
-Component along_l(const Frame& f, const EdgeAngles& at) {
-  return {f.x,
-          -at.z * f.x,
-          at.y,
-          -f.z * f.x.transpose(),
-          -at.x * f.x * f.x.transpose() - 0.5 * at.y * (f.x * f.y.transpose() + f.y * f.x.transpose()),
-          f.y,
-          -at.z * f.y,
-          -at.x};
+void add_all(const Frame& f, const Vec3& e, const EdgeAngles& at, std::size_t side, const Vec3& slope,
+             const Mat3& curvature, SpringStiffness& s) {
+  Mat3 by_e, by_t;
+  by_e << f.x, f.y, f.z;
+  by_t << -at.z * f.x, -at.z * f.y, e;
+  const Vec3 by_theta(at.y, -at.x, 0.0);
+  const Vec3 across = slope[0] * f.x + slope[1] * f.y;
+  const Vec3 turned = slope[0] * f.y - slope[1] * f.x;
+  s.g_e += by_e * slope;
+  s.g_t[side] += by_t * slope;
+  if (side == 0) s.g_theta += by_theta.dot(slope);
+
+  const Mat3 we = by_e * curvature;
+  const Mat3 wt = by_t * curvature;
+  s.ee += we * by_e.transpose();
+  s.et[side] += we * by_t.transpose() - f.z * across.transpose() + slope[2] * Mat3::Identity();
+  const Mat3 lm = f.x * f.y.transpose();
+  s.tt[side] += wt * by_t.transpose() - (slope[0] * at.x) * f.x * f.x.transpose() -
+                (slope[1] * at.y) * f.y * f.y.transpose() -
+                (0.5 * (slope[0] * at.y + slope[1] * at.x)) * (lm + lm.transpose());
+  s.e_theta[side] += we * by_theta + turned;
+  s.t_theta[side][side] += wt * by_theta - at.z * turned;
+  s.theta[side] += by_theta.dot(curvature * by_theta) - slope[0] * at.x - slope[1] * at.y;
 }
 
-Component along_m(const Frame& f, const EdgeAngles& at) {
-  return {f.y,
-          -at.z * f.y,
-          -at.x,
-          -f.z * f.y.transpose(),
-          -at.y * f.y * f.y.transpose() - 0.5 * at.x * (f.x * f.y.transpose() + f.y * f.x.transpose()),
-          -f.x,
-          at.z * f.x,
-          -at.y};
+/// Adds W(z) of the component z = e.t at node `side`.
+void add_along(const Vec3& e, const Vec3& t, std::size_t side, double slope, double curvature,
+               SpringStiffness& s) {
+  s.g_e += slope * t;
+  s.g_t[side] += slope * e;
+  s.ee += curvature * t * t.transpose();
+  s.et[side] += curvature * t * e.transpose() + slope * Mat3::Identity();
+  s.tt[side] += curvature * e * e.transpose();
 }
 
-/// Adds the spring W(q) with q one of the components at node `side`: W'' grad grad^T + W' hess.
-void add(const Component& q, std::size_t side, double slope, double curvature, SpringStiffness& s) {
-  s.g_e += slope * q.e;
-  s.g_t[side] += slope * q.t;
-  if (side == 0) s.g_theta += slope * q.theta;
-  const Vec3 e = curvature * q.e;
-  const Vec3 t = curvature * q.t;
-  s.ee += e * q.e.transpose();
-  s.et[side] += e * q.t.transpose() + slope * q.et;
-  s.tt[side] += t * q.t.transpose() + slope * q.tt;
-  s.e_theta[side] += q.theta * e + slope * q.e_theta;
-  s.t_theta[side][side] += q.theta * t + slope * q.t_theta;
-  s.theta[side] += curvature * q.theta * q.theta + slope * q.theta_theta;
+/// -(z + 3/2 rise) / w at w = st^2, the rise's own derivative by w: 4/5 + 2/7 w + ... on the near side.
+double rise_by_square(const EdgeAngles& at) {
+  const double w = at.st * at.st;
+  if (!(w <= lanes::kNearSquare && at.z > 0.0)) return -(at.z + 1.5 * at.rise) / w;
+  return lanes::horner(w, 0.8, 2.0 / 7, 1.0 / 6, 5.0 / 44, 35.0 / 416, 0.065625, 0.05307904411764706,
+                       0.044099506578947366, 0.03740583147321429, 0.032255753226902176);
 }
 
-/// 1/2 K (asin(q) - rest)^2; `cosine` that of the angle.
-void add_deviation(const Component& q, std::size_t side, double stiffness, double strain, double sine,
-                   double cosine, SpringStiffness& s) {
-  const double slope = stiffness * strain / cosine;
-  add(q, side, slope, (stiffness + slope * sine) / (cosine * cosine), s);
+/// One deviation, r x of the component x, with r = phi / sin(phi) of phi = atan2(sqrt(x^2 + y^2), z).
+struct Deviation {
+  Vec3 slope;  ///< by x, y, z
+  Mat3 curvature;
+};
+Deviation deviation(double x, double y, double z, double ratio, double rise, double rise_by_w) {
+  const double xx = x * x;
+  const double by_w = 2 * rise_by_w;
+  Deviation d;
+  d.slope = {ratio + rise * xx, rise * x * y, -x};
+  const double xy = rise * y + by_w * xx * y;
+  const double yz = 2 * x * y;
+  const double xz = 2 * xx - 1.0;
+  d.curvature << 3 * rise * x + by_w * xx * x, xy, xz, xy, x * (rise + by_w * y * y), yz, xz, yz, 2 * x * z;
+  return d;
+}
+
+struct Deviations {
+  Deviation l, m;
+};
+Deviations deviations(const EdgeAngles& at) {
+  const double by_w = rise_by_square(at);
+  Deviations d{deviation(at.x, at.y, at.z, at.ratio, at.rise, by_w),
+               deviation(at.y, at.x, at.z, at.ratio, at.rise, by_w)};
+  std::swap(d.m.slope[0], d.m.slope[1]);
+  d.m.curvature.row(0).swap(d.m.curvature.row(1));
+  d.m.curvature.col(0).swap(d.m.curvature.col(1));
+  return d;
 }
 
 /// 1/2 K (acos(e.t) - rest)^2.
 void add_third(const Vec3& e, const Vec3& t, std::size_t side, double stiffness, double angle, double rest,
                double sine, double z, SpringStiffness& s) {
-  const Component q{t, e, 0.0, Mat3::Identity(), Mat3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.0};
   if (sine > 1e-4) {
     const double g = stiffness * (angle - rest) / sine;
-    add(q, side, -g, (stiffness - g * z) / (sine * sine), s);
+    add_along(e, t, side, -g, (stiffness - g * z) / (sine * sine), s);
   } else if (rest == 0.0) {
     // angle / sine = 1 + angle^2 / 6 + ..., so the curvature tends to K / 3 (1 + 2 angle^2 / 5).
-    add(q, side, -stiffness * (1.0 + angle * angle / 6), stiffness / 3 * (1.0 + 0.4 * angle * angle), s);
+    add_along(e, t, side, -stiffness * (1.0 + angle * angle / 6), stiffness / 3 * (1.0 + 0.4 * angle * angle),
+              s);
   }
-}
-
-/// How fast the two deviations at a side change; `spin` of its node.
-struct DeviationRates {
-  double l, m;
-};
-DeviationRates deviation_rates(const Frame& f, const EdgeAngles& at, const Vec3& e_rate, const Vec3& t_rate,
-                               double spin) {
-  return {(e_rate.dot(f.x) - f.x.dot(t_rate) * at.z + spin * at.y) / at.cl,
-          (e_rate.dot(f.y) - f.y.dot(t_rate) * at.z - spin * at.x) / at.cm};
 }
 
 void add_bending(const Model& model, std::size_t i, std::size_t side, double viscosity, const Kinematics& kin,
@@ -105,8 +119,13 @@ void add_bending(const Model& model, std::size_t i, std::size_t side, double vis
     l += viscosity * rate.l;
     m += viscosity * rate.m;
   }
-  add_deviation(along_l(f, a), side, model.bend_l[node], l, a.x, a.cl, s);
-  add_deviation(along_m(f, a), side, model.bend_m[node], m, a.y, a.cm, s);
+  const Deviations by = deviations(a);
+  const double kl = model.bend_l[node];
+  const double km = model.bend_m[node];
+  add_all(f, e, a, side, kl * l * by.l.slope + km * m * by.m.slope,
+          kl * (by.l.slope * by.l.slope.transpose() + l * by.l.curvature) +
+              km * (by.m.slope * by.m.slope.transpose() + m * by.m.curvature),
+          s);
   if (model.bend_t[node] > 0.0)
     add_third(e, f.z, side, model.bend_t[node], a.t, model.rest_t[end], a.st, a.z, s);
 }
@@ -186,8 +205,11 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinem
     const std::size_t node = i + side;
     const Frame f = kin.frame[node];
     const EdgeAngles a = edge_angles(kin.e[i], f);
-    add(along_l(f, a), side, 0.0, model.bend_l[node] / (a.cl * a.cl), s);
-    add(along_m(f, a), side, 0.0, model.bend_m[node] / (a.cm * a.cm), s);
+    const Deviations by = deviations(a);
+    add_all(f, kin.e[i], a, side, Vec3::Zero(),
+            model.bend_l[node] * by.l.slope * by.l.slope.transpose() +
+                model.bend_m[node] * by.m.slope * by.m.slope.transpose(),
+            s);
   }
   const Vec3 ta = kin.frame.z[i];
   const Vec3 tb = kin.frame.z[i + 1];

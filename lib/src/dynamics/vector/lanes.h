@@ -66,31 +66,17 @@ TENDRIL_INLINE double angle(double y, double x) {
   return std::copysign(a, y);
 }
 
-/// asin of x, |x| <= 1, from x and the cosine, and 1 / cosine with the same division. A cosine of 0 is taken
-/// for 1: there the spring has no gradient to give.
-struct Deviation {
-  double angle, inverse_cosine;
-};
-TENDRIL_INLINE Deviation deviation(double x, double cosine) {
-  const double c = cosine > 0.0 ? cosine : 1.0;
-  const double ax = std::fabs(x);
-  const Ratio r = reduce(smaller(ax, c), larger(ax, c));
-  const double q = 1.0 / (c * r.down);
-  const double t = r.up * (q * c);
-  double a = r.offset + (t + t * atan_series(t * t));
-  a = ax > c ? 1.57079632679489656 - a : a;
-  return {std::copysign(a, x), q * r.down};
-}
-
 /// Up to which square of a sine the series below hold: angles to 10.2 degrees.
 constexpr double kNearSquare = 0.03125;
 
-/// asin(s) / s for w = s^2 up to kNearSquare: Chebyshev fit, error 2e-18.
+/// (asin(s) / s - 1) / w for w = s^2 up to kNearSquare: Chebyshev fit, error of the ratio 2e-18.
+TENDRIL_INLINE double asin_series(double w) {
+  return horner(w, 1.66666666666666713e-01, 7.49999999998587352e-02, 4.46428572150876571e-02,
+                3.03819306143614416e-02, 2.23734174402499056e-02, 1.72942214348841203e-02,
+                1.53025466205305438e-02);
+}
 TENDRIL_INLINE double asin_ratio(double w) {
-  const double p = horner(w, 1.66666666666666713e-01, 7.49999999998587352e-02, 4.46428572150876571e-02,
-                          3.03819306143614416e-02, 2.23734174402499056e-02, 1.72942214348841203e-02,
-                          1.53025466205305438e-02);
-  return 1.0 + p * w;
+  return 1.0 + asin_series(w) * w;
 }
 
 /// asin(s) / s up to kWideSquare, 30 degrees: error 3e-18.
@@ -104,12 +90,32 @@ TENDRIL_INLINE double wide_asin_ratio(double w) {
   return 1.0 + p * w;
 }
 
-/// 1 / sqrt(1 - w) for w up to kNearSquare: Chebyshev fit, error 3e-17.
-TENDRIL_INLINE double inverse_cosine(double w) {
-  const double p = horner(w, 5.00000000000000777e-01, 3.74999999997571776e-01, 3.12500001241328595e-01,
-                          2.73437262397397518e-01, 2.46115356384987716e-01, 2.24581757055933529e-01,
-                          2.32368976156264700e-01);
-  return 1.0 + p * w;
+/// (1 / sqrt(1 - w) - 1) / w for w up to kNearSquare: Chebyshev fit, error of the inverse cosine 3e-17.
+TENDRIL_INLINE double inverse_cosine_series(double w) {
+  return horner(w, 5.00000000000000777e-01, 3.74999999997571776e-01, 3.12500001241328595e-01,
+                2.73437262397397518e-01, 2.46115356384987716e-01, 2.24581757055933529e-01,
+                2.32368976156264700e-01);
+}
+
+/// What a direction at the angle phi from an axis, with components x, y across it, needs for the turn vector
+/// (x, y) phi / sin(phi): the ratio r = phi / s of angle and sine, and how it rises, dr = rise (x dx + y dy)
+/// with rise = (1 / cos(phi) - r) / s^2.
+struct Arc {
+  double ratio, rise;
+};
+/// \param w  s^2 up to kNearSquare
+TENDRIL_INLINE Arc near_arc(double w) {
+  const double p = asin_series(w);
+  return {1.0 + p * w, inverse_cosine_series(w) - p};
+}
+/// Up to a quarter turn, where the ratio rises without bound: a cosine of 0 is taken for 1.
+/// \param z  the cosine
+TENDRIL_INLINE Arc arc(double w, double s, double z) {
+  const bool near = w <= kNearSquare;
+  const Arc small = near_arc(near ? w : kNearSquare);
+  const double ratio = angle(s, z) / (near ? 1.0 : s);
+  const double rise = (1.0 / (z > 0.0 ? z : 1.0) - ratio) / (near ? 1.0 : w);
+  return {near ? small.ratio : ratio, near ? small.rise : rise};
 }
 
 /// asin(s) / (s sqrt(1 - w)), both at once: the slope of asin(s)^2 / 2 over s. Chebyshev fit, error 4e-17.
