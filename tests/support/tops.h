@@ -1,7 +1,8 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <tendril/curve/frames.h>
-#include <tendril/dynamics/system.h>
+#include <tendril/dynamics/simulation.h>
 
 #include <cmath>
 
@@ -57,6 +58,29 @@ inline double period_of_top(const Vec3& moments, const Vec3& spin) {
   const double l2 = moments.cwiseProduct(spin).squaredNorm();
   const double k2 = (b - a) * (e2 * c - l2) / ((c - b) * (l2 - e2 * a));
   return 4.0 * std::comp_ellint_1(std::sqrt(k2)) * std::sqrt(a * b * c / ((c - b) * (l2 - e2 * a)));
+}
+
+inline const Vec3 kUneven(0.4, 0.7, 1.0);  ///< moments
+
+inline SimulationOptions by(Method method, double step) {
+  SimulationOptions options;
+  options.method = method;
+  if (!chooses_steps(method)) options.fixed_step = step;
+  return options;
+}
+
+/// The first body after a run to the end.
+inline BodyView after(const Scene& scene, double time, const SimulationOptions& options, Report& report) {
+  const System system(scene);
+  Simulation simulation(system, system.rest_state(), options);
+  report = simulation.run(time);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_EQ(simulation.state().time, time);
+  return system.bodies(simulation.state()).at(0);
+}
+inline BodyView after(const Scene& scene, double time, const SimulationOptions& options) {
+  Report report;
+  return after(scene, time, options, report);
 }
 
 }  // namespace tendril::test

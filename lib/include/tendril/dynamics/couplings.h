@@ -13,7 +13,8 @@ namespace tendril {
 struct StateView;
 
 /// Where derivatives of loads are put: of the force on node i by the position and by the velocity of node j
-/// (flat indices), a pair that the force's couplings name. A row is a component of the force.
+/// (flat indices), a pair that the force's couplings name. A row is a component of the force. Of bodies, see
+/// Force::couplings: torques by infinitesimal turns and by spins, too, all in the world.
 class TENDRIL_CORE_API LoadDerivatives {
  public:
   virtual ~LoadDerivatives() = default;

@@ -62,7 +62,7 @@ class TENDRIL_CORE_API System {
   /// their pose.
   Evaluation rebase(State& state, Workspace& work) const;
 
-  /// The bodies of a state, k of them.
+  /// The bodies of a state, k of them; none where one turned too far from its reference.
   std::vector<BodyView> bodies(const State& state) const;
 
   /// Puts a body of a state elsewhere, or gives it another motion, as an impact does (Simulation::change).

@@ -137,8 +137,8 @@ void turn_to_principal_axes(const Model& model, const State& state, Eigen::Vecto
 double fastest_nutation(const Model& model, const State& state) {
   double fastest = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    fastest = std::max(fastest, (model.bodies[b].isotropic ? 1.0 : 2.0) *
-                                    state.y.segment<3>(Numbers(model, b).omega).norm());
+    if (!model.bodies[b].isotropic)
+      fastest = std::max(fastest, 2.0 * state.y.segment<3>(Numbers(model, b).omega).norm());
   return fastest;
 }
 

@@ -44,8 +44,8 @@ void turn_from_principal_axes(const Model& model, const State& state, Eigen::Vec
 /// omega' about the principal axes.
 void turn_to_principal_axes(const Model& model, const State& state, Eigen::VectorXd& dy);
 
-/// An upper bound of the frequency at which spinning bodies nutate: twice the spin [rad / time]; the spin
-/// itself of one that does not, as its turn is to be followed.
+/// An upper bound of the frequency at which spinning bodies nutate: twice the spin [rad / time]. One of equal
+/// moments does not.
 double fastest_nutation(const Model& model, const State& state);
 
 }  // namespace tendril

@@ -16,6 +16,14 @@ double fastest_motion(const System& system, const State& state, System::Workspac
   return system.largest_frequency(state, kLanczosVectors, work);
 }
 
+double longest_turn(const System& system, const State& state) {
+  const auto k = 3 * static_cast<Eigen::Index>(system.body_count());
+  double fastest = 0.0;
+  for (Eigen::Index i = 0; i < k; i += 3)
+    fastest = std::max(fastest, state.y.segment<3>(state.y.size() - 1 - k + i).norm());
+  return fastest > 0.0 ? 1.5 / fastest : std::numeric_limits<double>::infinity();
+}
+
 void Guard::measure(const State& state, double duration, System::Workspace& work) {
   since_.begin_anew();
   last_ = fastest_motion(system_, state, work);

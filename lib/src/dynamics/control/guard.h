@@ -25,6 +25,10 @@ constexpr long kFrequencyCost = 32;  ///< evaluations that an estimate of the la
 /// Estimate of the largest frequency about a state.
 double fastest_motion(const System& system, const State& state, System::Workspace& work);
 
+/// The step in which the body that spins fastest turns by 1.5 rad, well within what a step may turn it by;
+/// infinite where none spins.
+double longest_turn(const System& system, const State& state);
+
 /// The cap on explicit steps that keeps Cash-Karp from amplifying the fastest oscillations (stability.h),
 /// from estimates of the largest frequency now and then.
 class Guard {

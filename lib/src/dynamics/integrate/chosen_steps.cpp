@@ -82,7 +82,8 @@ double ChosenSteps::longest_step() const {
 }
 
 Aim ChosenSteps::aim(double target) const {
-  double h = std::min({control_.step(), longest_step(), options_.largest_step.value_or(until_ - start_)});
+  double h = std::min({control_.step(), longest_step(), longest_turn(system_, state_),
+                       options_.largest_step.value_or(until_ - start_)});
   const Stretch stretch = breaks_.from(state_.time, target);
   const double left = stretch.end - state_.time;
   if (h >= left * (1.0 - 1e-10)) return {left, stretch.end, stretch.at_break};
