@@ -112,7 +112,7 @@ TEST(FixedStep, EndsWhereTheEnergyIsLost) {
   SimulationOptions options = fixed(Method::explicit_euler, 2e-3);
   Simulation euler(system, system.rest_state(), options);
   const Report gained = euler.run(1.0);
-  EXPECT_EQ(gained.stop, Stop::energy_lost);
+  EXPECT_EQ(gained.stop, Stop::energy_gained);
   EXPECT_GT(gained.imbalance, 1e-2);
   EXPECT_LT(gained.time, 1.0);
 

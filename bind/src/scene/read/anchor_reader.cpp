@@ -2,7 +2,9 @@
 
 #include "scene/read/rod_reader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -19,6 +21,9 @@ struct Wave {
     if (even) return 1.0;
     const double omega = 2.0 * std::numbers::pi * frequency;
     return omega * std::cos(omega * t + phase);
+  }
+  double period() const {
+    return frequency > 0.0 ? 1.0 / frequency : std::numeric_limits<double>::infinity();
   }
 };
 
@@ -40,6 +45,11 @@ struct Motion {
     pose.velocity = pose.angular_velocity.cross(arm) + shift * shift_wave.rate(t);
     pose.frame = {turned(frame.x), turned(frame.y), turned(frame.z)};
     return pose;
+  }
+  double period() const {
+    const double turns =
+        angle_wave.even && angle != 0.0 ? 2.0 * std::numbers::pi / std::abs(angle) : angle_wave.period();
+    return std::min(turns, shift_wave.period());
   }
 };
 
@@ -122,7 +132,10 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
       motion.angle_wave = rotation->wave;
       motion.about = rotation->about.value_or(rod.p[i]);
     }
-    if (anchor.has("translation") || rotation) one.motion = motion;
+    if (anchor.has("translation") || rotation) {
+      one.motion = motion;
+      one.period = motion.period();
+    }
     out.push_back(one);
   }
   return out;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <vector>
 
 namespace tendril {
 
@@ -30,6 +31,9 @@ struct Anchor {
   /// restarted. A released frame at once becomes that of a free node, for it has no inertia across its
   /// tangent: the energy by which it had bent its springs is lost. Statics never releases.
   double until = std::numeric_limits<double>::infinity();
+  /// The shortest period of the motion, as Force::period(); infinite where it has none.
+  double period = std::numeric_limits<double>::infinity();
+  std::vector<double> breaks = {};  ///< times at which the motion's velocity jumps: steps end there
 };
 
 }  // namespace tendril

@@ -55,6 +55,9 @@ class TENDRIL_CORE_API Force {
 
   /// Times where it jumps; steps end there.
   virtual std::vector<double> breaks() const { return {}; }
+  /// The shortest period with which it comes and goes at a place of itself [time]. Steps that are chosen stay
+  /// below half of it: the stages of a longer one may meet the same phase every time.
+  virtual double period() const { return std::numeric_limits<double>::infinity(); }
 
   /// Called at the start of a run, after each accepted step and after Simulation::change, never for a step
   /// that is rejected: what to remember from here on, which add() and energy() find as StateView::memory.

@@ -49,6 +49,7 @@ class TENDRIL_CORE_API Wind : public Force {
   void add(const StateView& state, const Loads& loads) const override;
   Couplings couplings(std::span<const NodeRange> rods) const override;
   std::vector<double> breaks() const override { return options_.switched.breaks(); }
+  double period() const override;
   /// Air velocity at a point and time.
   Vec3 velocity(const Vec3& x, double t) const;
   /// And its derivative by x.
@@ -79,6 +80,7 @@ class TENDRIL_CORE_API PointLoad : public Force {
   Couplings couplings(std::span<const NodeRange> rods) const override;
   bool depends_on_time() const override { return !signal_.is_constant(); }
   std::vector<double> breaks() const override { return signal_.breaks(); }
+  double period() const override { return signal_.period(); }
 
  private:
   Kind kind_;

@@ -17,7 +17,9 @@ enum class Stop {
   step_underflow,  ///< no step large enough to advance the time meets the tolerance
   not_evaluable,   ///< zero-length edge, fold-back, no finite number, a force's refusal or an implicit step
                    ///< without solution, at every step size (or the fixed one)
-  energy_lost,     ///< the energy balance is off by more than the energy limit
+  energy_lost,  ///< energy went beyond the energy limit, or so that the motion is off beyond the drift limit
+  energy_gained,  ///< the same where it came
+  momentum_lost,  ///< a body's angular momentum changed that nothing turns, beyond the drift limit
 };
 /// The enumerator's name.
 TENDRIL_CORE_API const char* to_string(Stop stop);
@@ -48,6 +50,9 @@ struct Report {
   double work = 0.0;               ///< by forces without energy, damping, anchors, Simulation::change
   double changed = 0.0;            ///< of it, by Simulation::change: negative where impacts take energy
   double imbalance = 0.0;          ///< (last - first - work) / largest energy seen
+  /// How far energy or angular momentum that went astray put the motion off, estimated, in lengths of a rod:
+  /// of methods that choose their steps, where no force without energy acts and none remembers.
+  double drift = 0.0;
 };
 
 }  // namespace tendril

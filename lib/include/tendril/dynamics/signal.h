@@ -24,6 +24,7 @@ class TENDRIL_CORE_API Signal {
   bool is_constant() const { return kind_ == Kind::constant; }  ///< made by constant()
   /// Times where the value or its slope jumps, ascending: the integrator ends a step there.
   std::vector<double> breaks() const;
+  double period() const;  ///< of a sinusoid [time]; infinite for the others
 
  private:
   enum class Kind { constant, sinusoid, table };

@@ -23,14 +23,16 @@ struct SimulationOptions {
   /// Step of the methods that do not choose their own. Stretches between outputs, jumps of a
   /// force and the end are divided into equal steps of at most this.
   std::optional<double> fixed_step = {};
-  double tolerance = 1e-6;                ///< of a step's error, relative to those scales, largest component
-  std::optional<double> first_step = {};  ///< default: a hundredth of the run, capped by the guard
+  double tolerance = 1e-6;  ///< of a step's error, relative to those scales, largest component
+  std::optional<double> first_step =
+      {};  ///< default: a hundredth of the run or a tenth of the shortest period
   std::optional<double> largest_step = {};  ///< default: the whole run
   double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
-  double total_amplification = 0.1;  ///< guard: the same over the whole run
-  double energy_limit = 1e-2;        ///< of the energy balance, relative to the largest energy seen
-  long work_limit = 20'000'000;      ///< evaluations of the equations
-  int degree = 3;                    ///< of the curves through the masses (lower for rods of fewer masses)
+  double total_amplification = 5e-3;  ///< guard: the same over the whole run; half the energy limit
+  double energy_limit = 1e-2;         ///< of the energy balance, relative to the largest energy seen
+  double drift_limit = 50.0;          ///< of Report::drift, in tolerances
+  long work_limit = 20'000'000;       ///< evaluations of the equations
+  int degree = 3;                     ///< of the curves through the masses (lower for rods of fewer masses)
   Parametrisation parametrisation = Parametrisation::centripetal;  ///< of those curves
 };
 

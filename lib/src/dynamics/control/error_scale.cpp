@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/scene/model.h"
+
 namespace tendril {
 namespace {
 
@@ -22,26 +24,50 @@ void add_shares(const Rod& rod, std::vector<double>& shares) {
     shares.push_back(mass > 0.0 ? std::clamp(std::sqrt(2.0 * m * count / mass), 0.01, 1.0) : 1.0);
 }
 
+/// A vector per node, in a part of y that begins there.
+auto of_node(const Eigen::VectorXd& y, Eigen::Index begin, std::size_t node) {
+  return y.segment<3>(begin + 3 * static_cast<Eigen::Index>(node));
+}
+
+Vec3 mean(const Tree& tree, const std::vector<double>& mass, const Eigen::VectorXd& y, Eigen::Index begin) {
+  Vec3 sum = Vec3::Zero();
+  double all = 0.0;
+  for (const std::size_t i : tree.nodes) {
+    sum += mass[i] * of_node(y, begin, i);
+    all += mass[i];
+  }
+  return sum / all;
+}
+
 }  // namespace
 
-ErrorScale::ErrorScale(const System& system) : system_(system) {
+ErrorScale::ErrorScale(const System& system) : system_(system), trees_(trees_of(model_of(system))) {
   for (const Rod& rod : system.scene().rods) {
     rod_length_.push_back(length_of(rod));
     longest_ = std::max(longest_, rod_length_.back());
+    mass_.insert(mass_.end(), rod.mass.begin(), rod.mass.end());
     add_shares(rod, speed_share_);
   }
+  for (const Tree& tree : trees_) {
+    tree_mass_.push_back(0.0);
+    for (const std::size_t i : tree.nodes) tree_mass_.back() += mass_[i];
+  }
+  speeds_.resize(trees_.size() + 1);
   for (const Body& body : system_.scene().bodies)
     body_size_.push_back(std::sqrt(body.inertia.trace() / 3.0 / body.mass));
   if (rod_length_.empty()) longest_ = *std::max_element(body_size_.begin(), body_size_.end());
 }
 
 /// The speed of a body's surface where it spins: that of its matter at a radius of gyration.
-void ErrorScale::see_bodies(const State& state) {
+double ErrorScale::see_bodies(const State& state) const {
   const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
   const Eigen::Index u = state.y.size() - 1 - 2 * k;
+  double fastest = 0.0;
   for (Eigen::Index b = 0; b < k / 3; ++b)
-    see(state.y.segment<3>(u + 3 * b).norm() +
-        body_size_[static_cast<std::size_t>(b)] * state.y.segment<3>(u + k + 3 * b).norm());
+    fastest = std::max(
+        fastest, state.y.segment<3>(u + 3 * b).norm() +
+                     body_size_[static_cast<std::size_t>(b)] * state.y.segment<3>(u + k + 3 * b).norm());
+  return fastest;
 }
 
 double ErrorScale::norm_of_bodies(const Eigen::VectorXd& error, double speed) const {
@@ -59,34 +85,122 @@ double ErrorScale::norm_of_bodies(const Eigen::VectorXd& error, double speed) co
 }
 
 void ErrorScale::see(const State& state) {
-  const auto n = static_cast<Eigen::Index>(system_.node_count());
-  double fastest = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double share = speed_share_[static_cast<std::size_t>(i)];
-    fastest = std::max(fastest, share * share * state.y.segment<3>(3 * n + 3 * i).squaredNorm());
+  speeds_.back().own = std::max(speeds_.back().own, see_bodies(state));
+  const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
+  double own = 0.0, all = 0.0;
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    const Vec3 common = trees_[b].free ? mean(trees_[b], mass_, state.y, v) : Vec3(Vec3::Zero());
+    double fastest = 0.0;
+    double kinetic = 0.0;
+    for (const std::size_t i : trees_[b].nodes) {
+      const double square = (of_node(state.y, v, i) - common).squaredNorm();
+      fastest = std::max(fastest, speed_share_[i] * speed_share_[i] * square);
+      kinetic += mass_[i] * square;
+    }
+    speeds_[b].own = std::max(speeds_[b].own, std::sqrt(fastest));
+    speeds_[b].common = std::max(speeds_[b].common, common.norm());
+    own += 0.5 * kinetic;
+    all += 0.5 * (kinetic + tree_mass_[b] * common.squaredNorm());
   }
-  see(std::sqrt(fastest));
-  see_bodies(state);
+  most_own_kinetic_ = std::max(most_own_kinetic_, own);
+  most_kinetic_ = std::max(most_kinetic_, all);
+}
+
+void ErrorScale::see_start(const Eigen::VectorXd& rate) {
+  const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
+  const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
+  for (Eigen::Index b = 0; b < k / 3; ++b) {
+    const double a = rate.segment<3>(rate.size() - 1 - 2 * k + 3 * b).norm();
+    speeds_.back().own = std::max(speeds_.back().own, std::sqrt(a * longest_));
+  }
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    const Vec3 common = trees_[b].free ? mean(trees_[b], mass_, rate, v) : Vec3(Vec3::Zero());
+    double moved = 0.0;
+    for (const std::size_t i : trees_[b].nodes) moved += mass_[i] * (of_node(rate, v, i) - common).norm();
+    speeds_[b].own = std::max(speeds_[b].own, std::sqrt(moved / tree_mass_[b] * longest_));
+    speeds_[b].common = std::max(speeds_[b].common, std::sqrt(common.norm() * longest_));
+  }
+}
+
+void ErrorScale::see(const std::vector<Speed>& speeds) {
+  for (std::size_t b = 0; b < speeds_.size() && b < speeds.size(); ++b) {
+    speeds_[b].own = std::max(speeds_[b].own, speeds[b].own);
+    speeds_[b].common = std::max(speeds_[b].common, speeds[b].common);
+  }
+}
+
+double ErrorScale::fastest() const {
+  double fastest = 0.0;
+  for (const Speed& speed : speeds_) fastest = std::max({fastest, speed.own, speed.common});
+  return fastest;
+}
+
+double ErrorScale::least_speed() const {
+  const double least = std::max(kLeast * fastest(), slowest_);
+  return least > 0.0 ? least : longest_;
+}
+
+double ErrorScale::energy() const {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < trees_.size(); ++b)
+    sum += 0.5 * tree_mass_[b] * speeds_[b].own * speeds_[b].own;
+  for (const Body& body : system_.scene().bodies)
+    sum += 0.5 * body.mass * speeds_.back().own * speeds_.back().own;
+  return sum;
+}
+
+double ErrorScale::common_energy() const {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < trees_.size(); ++b)
+    sum += 0.5 * tree_mass_[b] * speeds_[b].common * speeds_[b].common;
+  return sum;
+}
+
+double ErrorScale::rate() const {
+  double fastest = 0.0;
+  for (const Speed& speed : speeds_) fastest = std::max(fastest, speed.own);
+  return fastest / longest_;
+}
+
+double ErrorScale::velocity_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const {
+  const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
+  Vec3 common = Vec3::Zero();
+  double largest = 0.0;
+  if (trees_[tree].free) {
+    common = mean(trees_[tree], mass_, error, v);
+    largest = common.cwiseAbs().maxCoeff() / std::max(speed, speeds_[tree].common);
+  }
+  for (const std::size_t i : trees_[tree].nodes)
+    largest =
+        std::max(largest, speed_share_[i] * (of_node(error, v, i) - common).cwiseAbs().maxCoeff() / speed);
+  return largest;
+}
+
+double ErrorScale::turning_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const {
+  const Model& model = model_of(system_);
+  double largest = 0.0;
+  for (const std::size_t i : trees_[tree].nodes) {
+    if (!model.has_twist(i)) continue;
+    largest = std::max({largest, std::abs(error[model.theta_begin() + model.twist_index[i]]),
+                        std::abs(error[model.spin_begin() + model.twist_index[i]]) * longest_ / speed});
+  }
+  return largest;
 }
 
 double ErrorScale::norm(const Eigen::VectorXd& error) const {
-  const auto n = static_cast<Eigen::Index>(system_.node_count());
-  const auto m = static_cast<Eigen::Index>(system_.twist_count());
-  const double speed = speed_ > 0.0 ? speed_ : longest_;
   double largest = 0.0;
   for (std::size_t r = 0; r < rod_length_.size(); ++r) {
     const auto first = 3 * static_cast<Eigen::Index>(system_.rods()[r].first);
     const auto count = 3 * static_cast<Eigen::Index>(system_.rods()[r].count);
     largest = std::max(largest, error.segment(first, count).cwiseAbs().maxCoeff() / rod_length_[r]);
   }
-  for (Eigen::Index i = 0; i < n; ++i)
-    largest = std::max(largest, speed_share_[static_cast<std::size_t>(i)] *
-                                    error.segment<3>(3 * n + 3 * i).cwiseAbs().maxCoeff() / speed);
-  if (m > 0) {
-    largest = std::max(largest, error.segment(6 * n, m).cwiseAbs().maxCoeff());
-    largest = std::max(largest, error.segment(6 * n + m, m).cwiseAbs().maxCoeff() * longest_ / speed);
+  const double least = least_speed();
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    const double speed = std::max(least, speeds_[b].own);
+    largest = std::max(largest, velocity_norm(b, speed, error));
+    if (system_.twist_count() > 0) largest = std::max(largest, turning_norm(b, speed, error));
   }
-  return std::max(largest, norm_of_bodies(error, speed));
+  return std::max(largest, norm_of_bodies(error, std::max(least, fastest())));
 }
 
 }  // namespace tendril

@@ -4,33 +4,65 @@
 
 #include <vector>
 
+#include "dynamics/scene/free_bodies.h"
+
 namespace tendril {
 
-/// What the error of a step is relative to: see SimulationOptions.
+/// What the error of a step is relative to: see SimulationOptions. Speeds are those of a tree (rods joined so
+/// that each feels the other). Of one that nothing holds, the error of the common velocity counts by that
+/// velocity, and the rest by how the tree moves in itself: a fall must not hide what becomes of a spin.
 class ErrorScale {
  public:
   /// \param system  kept by reference
   explicit ErrorScale(const System& system);
 
-  /// Takes the speeds of a state into the largest so far.
+  /// Largest speeds of a tree so far.
+  struct Speed {
+    double own = 0.0;     ///< about the common velocity, or at all where something holds it
+    double common = 0.0;  ///< 0 where something holds it
+  };
+
+  /// Takes the speeds of a state into the largest so far; those of the rigid bodies into one for all.
   void see(const State& state);
-  void see(double speed) { speed_ = speed > speed_ ? speed : speed_; }
+  /// Takes the speeds that accelerations give over the longest rod's length.
+  /// \param rate  y' of a state
+  void see_start(const Eigen::VectorXd& rate);
+  /// Goes on with those of the same bodies in a scene laid out anew.
+  void see(const std::vector<Speed>& speeds);
+  /// No speed scale is below a thousandth of a length in this time.
+  void begin(double duration) { slowest_ = duration > 0.0 ? kLeast * longest_ / duration : 0.0; }
 
   /// Largest component of an error laid out like y, relative to its scale.
   double norm(const Eigen::VectorXd& error) const;
 
-  double speed() const { return speed_; }
-  double longest() const { return longest_; }
+  const std::vector<Speed>& speeds() const { return speeds_; }  ///< per tree, then that of the rigid bodies
+  double energy() const;                                        ///< kinetic, at the trees' own speeds
+  double common_energy() const;                                 ///< kinetic, at their common speeds
+  /// The largest kinetic energy of the trees' masses that was seen, and of it without the common motions.
+  double most_kinetic() const { return most_kinetic_; }
+  double most_own_kinetic() const { return most_own_kinetic_; }
+  double rate() const;  ///< the largest of these, in lengths of the longest rod a time unit
 
  private:
-  void see_bodies(const State& state);
+  static constexpr double kLeast = 1e-3;  ///< of the fastest tree's speed, too
+
+  double fastest() const;
+  double least_speed() const;
+  double see_bodies(const State& state) const;
   double norm_of_bodies(const Eigen::VectorXd& error, double speed) const;
+  double velocity_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const;
+  double turning_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const;
 
   const System& system_;
+  std::vector<Tree> trees_;
+  std::vector<double> tree_mass_;
   std::vector<double> rod_length_;
+  std::vector<double> mass_;         ///< per node
   std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
   std::vector<double> body_size_;    ///< radius of gyration
-  double longest_ = 0.0, speed_ = 0.0;
+  std::vector<Speed> speeds_;
+  double longest_ = 0.0, slowest_ = 0.0;
+  double most_kinetic_ = 0.0, most_own_kinetic_ = 0.0;
 };
 
 }  // namespace tendril

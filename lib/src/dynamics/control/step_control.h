@@ -24,6 +24,8 @@ class StepControl {
   /// There is no step at all.
   void give_up() { step_.reset(); }
   void accept(double h, double error, const EmbeddedStepper& by);
+  /// Goes on with this step, whatever the last ones were.
+  void go_on_with(double h) { step_ = h, last_stiff_.reset(); }
   /// What comes next is not to be told from what was.
   void at_most(double h) { step_ = h < *step_ ? h : *step_; }
 

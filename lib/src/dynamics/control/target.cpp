@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tendril {
 
@@ -12,6 +13,8 @@ double Aim::seen(double now) const {
 Breaks::Breaks(const Scene& scene) {
   for (const auto& force : scene.forces)
     for (const double time : force->breaks()) times_.push_back(time);
+  for (const Anchor& anchor : scene.anchors)
+    times_.insert(times_.end(), anchor.breaks.begin(), anchor.breaks.end());
   std::sort(times_.begin(), times_.end());
 }
 
@@ -19,6 +22,13 @@ Stretch Breaks::from(double now, double target) const {
   const auto next = std::upper_bound(times_.begin(), times_.end(), now);
   if (next != times_.end() && *next <= target) return {*next, true};
   return {target, false};
+}
+
+double shortest_period(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& force : scene.forces) shortest = std::min(shortest, force->period());
+  for (const Anchor& anchor : scene.anchors) shortest = std::min(shortest, anchor.period);
+  return shortest;
 }
 
 }  // namespace tendril

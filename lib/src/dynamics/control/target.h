@@ -22,7 +22,7 @@ struct Stretch {
   bool at_break;  ///< a force jumps at its end
 };
 
-/// The times at which forces jump.
+/// The times at which forces jump, or the motion of anchors.
 class Breaks {
  public:
   explicit Breaks(const Scene& scene);
@@ -33,5 +33,8 @@ class Breaks {
  private:
   std::vector<double> times_;  ///< ascending
 };
+
+/// The shortest period of what forces and anchors do of themselves; infinite where nothing repeats.
+double shortest_period(const Scene& scene);
 
 }  // namespace tendril

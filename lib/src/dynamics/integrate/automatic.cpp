@@ -42,6 +42,7 @@ void Automatic::look_again_later(double ratio) {
 
 void Automatic::look_ahead() {
   const bool stiff = stepper_->stiff();
+  if (stiff) foresee();
   if (!guard_.since().passed(stiff ? implicit_interval_ : kExplicitInterval)) return;
   measure_guard();
   const bool first = !std::exchange(chosen_, true);

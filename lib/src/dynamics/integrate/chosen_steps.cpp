@@ -14,6 +14,30 @@ namespace {
 constexpr double kLongestPhase = 1e5;  // of the fastest motion in an implicit step: rounding grows to 1e-6
 constexpr long kLongRun = 32;          // accepted implicit steps after which that is asked
 constexpr long kGuardInterval = 128;   // accepted steps between estimates of the largest frequency
+constexpr double kFirst = 0.1, kSeen = 0.5;  // of the shortest period: the first step, and any
+constexpr long kPaceInterval = 256;  // accepted implicit steps between looks at what the rest will cost
+// Lengths that the energy lost by implicit steps may put a run off at its end, in tolerances.
+constexpr double kDriftAim = 2.0;
+// For its sake steps' own errors are kept down to this share of the tolerance at most, some six times the
+// steps.
+constexpr double kFinest = 1e-3;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr long kUnwatched = 16;  // steps without regard to the energy
+constexpr double kStill = 5.0;   // who moves less than that, in lengths over the tolerance, may stop as well
+constexpr double kBurst = 0.02;  // of the energy that may still be lost, in one step
+// Of the speed that the error scale knows; slower motions have no more to lose.
+constexpr double kSlowest = 0.1;
+
+bool keeps_energy(const Model& model) {
+  const auto draws = [](const Model::Acting& acting) {
+    return !acting.has_energy || acting.force->depends_on_time();
+  };
+  return !model.damped && std::none_of(model.acting.begin(), model.acting.end(), draws) &&
+         std::none_of(model.segments.begin(), model.segments.end(),
+                      [](const auto& s) { return s.viscous; }) &&
+         std::none_of(model.anchors.begin(), model.anchors.end(),
+                      [](const auto& a) { return bool(a.motion); });
+}
 
 }  // namespace
 
@@ -22,6 +46,8 @@ ChosenSteps::ChosenSteps(const System& system, State start, const SimulationOpti
     : Controller(system, std::move(start), options, *stepper),
       stepper_(std::move(stepper)),
       guard_(system_, options_),
+      period_(shortest_period(system.scene())),
+      keeps_energy_(keeps_energy(model_of(system))),
       floats_(has_free_body(model_of(system))) {}
 
 void ChosenSteps::begin(double until) {
@@ -29,7 +55,7 @@ void ChosenSteps::begin(double until) {
   guard_.since().end_at_once();
   stepper_->go_on();
   const double run = until - state_.time;
-  if (run > 0.0) control_.begin(options_.first_step.value_or(run / 100));
+  if (run > 0.0) control_.begin(options_.first_step.value_or(std::min(run / 100, kFirst * period_)));
 }
 
 Controller::Past ChosenSteps::past() {
@@ -61,7 +87,8 @@ double ChosenSteps::needed() const {
 
 void ChosenSteps::look_ahead() {
   if (stepper_->stiff()) {
-    if (floats_ && report_.accepted == kLongRun && !guard_.frequency()) measure_guard();
+    if (floats_ && steps_ == kLongRun && !guard_.frequency()) measure_guard();
+    foresee();
     return;
   }
   if (!guard_.since().passed(kGuardInterval)) return;
@@ -73,12 +100,28 @@ void ChosenSteps::look_ahead() {
                                    " evaluations and ", left(), " are left"));
 }
 
+/// Where no energy leaves, the motion will ask for such steps to its end.
+void ChosenSteps::foresee() {
+  if (!keeps_energy_ || steps_ % kPaceInterval != 0) return;
+  if (pace_ && state_.time > pace_->time) {
+    const double rate = static_cast<double>(evaluations() - pace_->evaluations) / (state_.time - pace_->time);
+    const double needed = rate * (until_ - state_.time);
+    if (needed > 2.0 * left())
+      stop(Stop::too_stiff,
+           sentence("at time ", state_.time, " implicit steps take ", rate,
+                    " evaluations a time unit to keep the energy: the rest of the run would need about ",
+                    needed, " and ", left(), " are left"));
+  }
+  pace_ = Pace{state_.time, evaluations()};
+}
+
 /// An implicit step's equations weigh the springs by (h omega)^2 against the masses: their rounding turns and
 /// shakes a body that nothing holds in place.
 double ChosenSteps::longest_step() const {
-  if (!stepper_->stiff()) return guard_.step();
+  if (!stepper_->stiff()) return std::min(guard_.step(), kSeen * period_);
   const double w = guard_.frequency().value_or(0.0);
-  return floats_ && w > 0.0 ? kLongestPhase / w : std::numeric_limits<double>::infinity();
+  return std::min(kSeen * period_,
+                  floats_ && w > 0.0 ? kLongestPhase / w : std::numeric_limits<double>::infinity());
 }
 
 Aim ChosenSteps::aim(double target) const {
@@ -94,13 +137,16 @@ Aim ChosenSteps::aim(double target) const {
 
 bool ChosenSteps::step_towards(double target) {
   look_ahead();
+  tolerable_.reset();
   Evaluation last;
   while (!ended_ && !out_of_work()) {
     const Aim at = aim(target);
     const double h = at.seen(state_.time);
     if (!(state_.time + h > state_.time)) return jump(at, last);
     last = stepper_->step(state_, h, y_, error_);
-    const double error = last.ok() ? scale_.norm(error_) / options_.tolerance : 0.0;
+    own_error_ = last.ok() ? scale_.norm(error_) / options_.tolerance : kNone;
+    double error = last.ok() ? own_error_ : 0.0;
+    if (last.ok() && error <= 1.0) error = error_with_energy(at, error);
     if (last.ok() && error <= 1.0 && renew(at, state_.time + h, last)) {
       accept(at, error);
       return !ended_;
@@ -121,8 +167,21 @@ bool ChosenSteps::jump(const Aim& aim, const Evaluation& last) {
   return false;
 }
 
-/// The state at the step's end with frames of its own; false when it has none, or a force refuses it.
-bool ChosenSteps::renew(const Aim& aim, double end, Evaluation& last) {
+/// What an implicit step may put the balance off by: a share of what the whole run may lose, by its time, or
+/// a little of what is left, for a burst.
+double ChosenSteps::energy_allowance(double h) const {
+  const double run = until_ - start_;
+  const double speed = std::max(drift_.fastest(), kSlowest * scale_.rate());
+  const double may_lose = 4.0 * kDriftAim * options_.tolerance / std::max(1.0, speed * run) *
+                          std::max(energy_.own_scale(), kSlowest * kSlowest * scale_.energy());
+  const double lost = std::abs(energy_.off(state_, energy_.last()));
+  const double left = std::max(may_lose - lost, kBurst * may_lose);
+  return left * std::max(2.0 * h / (until_ - state_.time), kBurst);
+}
+
+/// The state at the step's end is put into next_. Of implicit steps, what the balance is off by counts as an
+/// error, too: the estimate does not see how errors add up where every step loses a little.
+double ChosenSteps::error_with_energy(const Aim& aim, double error) {
   next_.y.swap(y_);
   next_.tangent = state_.tangent;
   next_.director = state_.director;
@@ -130,6 +189,26 @@ bool ChosenSteps::renew(const Aim& aim, double end, Evaluation& last) {
   next_.memory = state_.memory;
   next_.rotation = state_.rotation;
   next_.time = aim.time;
+  next_energies_.reset();
+  if (!stepper_->stiff() || touches()) return error;
+  ++other_evaluations_;
+  next_energies_ = system_.energies(next_, workspace());
+  if (unwatched_ > 0 || (steps_ > kLongRun && drift_.widest() < kStill * options_.tolerance)) return error;
+  return std::max(error, energy_error(aim, error));
+}
+
+double ChosenSteps::energy_error(const Aim& aim, double error) {
+  const double rounding =
+      1e-14 * (next_energies_->kinetic + next_energies_->elastic + std::abs(next_energies_->potential));
+  const double off = energy_.off(next_, *next_energies_) - energy_.off(state_, energy_.last());
+  const double ratio =
+      std::min(std::max(0.0, std::abs(off) - rounding) / energy_allowance(aim.h), error / kFinest);
+  if (ratio > 1.0) tolerable_ = std::max(aim.h, tolerable_.value_or(0.0));
+  return ratio;
+}
+
+/// The state in next_ with frames of its own; false when it has none, or a force refuses it.
+bool ChosenSteps::renew(const Aim& aim, double end, Evaluation& last) {
   last = system_.rebase(next_, workspace());
   next_.time = end;
   if (last.ok()) last = asks(next_);
@@ -145,6 +224,12 @@ double ChosenSteps::least_step() const {
 bool ChosenSteps::reject(const Aim& aim, std::optional<double> error, const Evaluation& why) {
   ++report_.rejected;
   control_.reject(aim.h, error);
+  // Shorter steps that are worse have begun to see a ringing that longer ones damp: those are taken, and the
+  // drift judges.
+  if (tolerable_ && aim.h < *tolerable_ && !(own_error_ <= 1.0)) {
+    control_.go_on_with(*std::exchange(tolerable_, std::nullopt));
+    unwatched_ = kUnwatched;
+  }
   if (control_.step() > least_step()) return true;
   stop_without_step(why);
   return false;
@@ -161,8 +246,11 @@ void ChosenSteps::stop_without_step(const Evaluation& why) {
 
 void ChosenSteps::accept(const Aim& aim, double error) {
   stepper_->go_on();
+  ++steps_;
   control_.accept(aim.h, error, *stepper_);
+  if (unwatched_ > 0) --unwatched_;
   guard_.since().count();
+  if (next_energies_) judge(*next_energies_);
   record(aim);
   // What was learnt before a jump says nothing about what comes after it.
   if (aim.at_break) {

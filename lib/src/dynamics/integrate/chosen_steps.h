@@ -25,6 +25,8 @@ class ChosenSteps : public Controller {
   void measure_guard();
   /// Evaluations that explicit steps would need from here on, and those that are left.
   double needed() const;
+  /// Stops where implicit steps cannot reach the end.
+  void foresee();
   double left() const { return static_cast<double>(options_.work_limit - evaluations()); }
 
   std::unique_ptr<EmbeddedStepper> stepper_;
@@ -34,19 +36,37 @@ class ChosenSteps : public Controller {
  private:
   const Stepper& stepper() const override { return *stepper_; }
   bool may_lose_energy() const override { return stepper_->stiff(); }
+  bool keeps_tolerance() const override { return true; }
   double longest_step() const;
   Aim aim(double target) const;
   bool jump(const Aim& aim, const Evaluation& last);
   /// \param end  of the step as its stages saw it
   bool renew(const Aim& aim, double end, Evaluation& last);
+  double error_with_energy(const Aim& aim, double error);
+  double energy_allowance(double h) const;
+  double energy_error(const Aim& aim, double error);
   void accept(const Aim& aim, double error);
   bool reject(const Aim& aim, std::optional<double> error, const Evaluation& why);
   void stop_without_step(const Evaluation& why);
   double least_step() const;
 
+  /// What accepted steps cost since a time.
+  struct Pace {
+    double time;
+    long evaluations;
+  };
+
   State next_;
+  std::optional<Energies> next_energies_;
+  double own_error_ = 0.0;           ///< of the last trial, without regard to the energy
+  std::optional<double> tolerable_;  ///< a step tried in vain from here, for the energy's sake alone
+  long unwatched_ = 0;               ///< steps left in which the energy does not shorten them
   Eigen::VectorXd y_, error_;
-  bool floats_;  ///< some body is held by nothing
+  std::optional<Pace> pace_;
+  double period_;      ///< shortest, of what acts of itself
+  long steps_ = 0;     ///< accepted, in this layout of the scene
+  bool keeps_energy_;  ///< nothing takes energy out or puts it in
+  bool floats_;        ///< some body is held by nothing
 };
 
 }  // namespace tendril

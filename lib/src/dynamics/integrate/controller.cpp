@@ -18,6 +18,11 @@ namespace {
 
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
 
+bool is_pushed(const Model& model) {
+  return std::any_of(model.acting.begin(), model.acting.end(),
+                     [](const Model::Acting& acting) { return !acting.has_energy; });
+}
+
 }  // namespace
 
 Controller::Controller(const System& system, State start, const SimulationOptions& options,
@@ -28,45 +33,31 @@ Controller::Controller(const System& system, State start, const SimulationOption
       work_(system.make_workspace()),
       breaks_(system.scene()),
       scale_(system),
+      energy_(system, *work_, state_),
+      drift_(system, state_),
       until_(state_.time),
       start_(state_.time),
-      energy_(system, *work_, state_) {
+      pushed_(is_pushed(model_of(system))) {
   for (const auto& force : system_.scene().forces) may_be_refused_ = may_be_refused_ || force->refuses();
   report_.method = stepper.name();
   report_.guard_step = std::numeric_limits<double>::infinity();
-  energy_.scale_at_least(measure_scales());
+  measure_scales();
 }
 
 /// Takes the speed that the first acceleration gives over a rod's length. Returns a thousandth of the energy
 /// of that.
-double Controller::measure_scales() {
+void Controller::measure_scales() {
   Eigen::VectorXd dy;
   ++other_evaluations_;
-  double moved = 0.0;
-  double mass = 0.0;
-  if (system_.derivative(state_, state_.time, state_.y, dy, workspace()).ok()) {
-    Eigen::Index i = 3 * static_cast<Eigen::Index>(system_.node_count());
-    for (const Rod& rod : system_.scene().rods)
-      for (const double m : rod.mass) {
-        moved += m * dy.segment<3>(i).norm();
-        mass += m;
-        i += 3;
-      }
-  }
-  const Eigen::Index u = state_.y.size() - 1 - 6 * static_cast<Eigen::Index>(system_.body_count());
-  for (std::size_t b = 0; b < system_.body_count(); ++b) {
-    const double m = system_.scene().bodies[b].mass;
-    if (dy.size() > 0) moved += m * dy.segment<3>(u + 3 * static_cast<Eigen::Index>(b)).norm();
-    mass += m;
-  }
   scale_.see(state_);
-  if (mass > 0.0) scale_.see(std::sqrt(moved / mass * scale_.longest()));
-  return 1e-3 * mass * scale_.speed() * scale_.speed();
+  if (system_.derivative(state_, state_.time, state_.y, dy, workspace()).ok()) scale_.see_start(dy);
+  constexpr double kShare = 2e-3;
+  energy_.scale_at_least(kShare * (scale_.energy() + scale_.common_energy()), kShare * scale_.energy());
 }
 
 Controller::Past Controller::past() {
   check_energy();
-  return {report_, energy_, start_, scale_.speed(), evaluations(), {}};
+  return {report_, energy_, drift_, scale_.speeds(), start_, evaluations(), {}};
 }
 
 void Controller::take_over(const Past& past) {
@@ -74,13 +65,15 @@ void Controller::take_over(const Past& past) {
   report_.method = mine.method;
   report_.guard_step = mine.guard_step;
   energy_.take_over(past.energy);
+  drift_.take_over(past.drift);
   other_evaluations_ += past.evaluations;
   start_ = past.start;
-  scale_.see(past.speed);
+  scale_.see(past.speeds);
 }
 
 void Controller::begin(double until) {
   until_ = until;
+  scale_.begin(until_ - start_);
   ended_ = false;
   report_.stop = Stop::finished;
   report_.reason.clear();
@@ -112,18 +105,49 @@ void Controller::change(State state) {
   system_.remember(state_, workspace());
   other_evaluations_ += 3;
   report_.changed += energy_.change(before, state_);
+  drift_.begin_anew(state_);
   scale_.see(state_);
   begin_anew();
 }
 
 void Controller::check_energy() {
-  energy_.look(state_);
   ++other_evaluations_;
+  judge(system_.energies(state_, workspace()));
+}
+
+bool Controller::touches() const {
+  return std::any_of(state_.memory.begin(), state_.memory.end(),
+                     [](const auto& kept) { return kept != nullptr; });
+}
+
+void Controller::judge(const Energies& energies) {
+  // The largest may lie between two looks.
+  energy_.scale_at_least(scale_.most_kinetic(), scale_.most_own_kinetic());
+  energy_.look(state_, energies);
   const double off = energy_.imbalance();
   const double wrong = may_lose_energy() ? off : std::abs(off);
   if (!ended_ && wrong > std::max(options_.energy_limit, options_.tolerance))
-    stop(Stop::energy_lost,
+    stop(off < 0.0 ? Stop::energy_lost : Stop::energy_gained,
          sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
+  if (keeps_tolerance() && !pushed_ && !touches()) judge_drift();
+}
+
+/// What is off in energy or angular momentum has moved off in place.
+void Controller::judge_drift() {
+  drift_.look(state_, energy_.own_imbalance());
+  report_.drift = drift_.lag();
+  if (ended_ || report_.drift <= options_.drift_limit * options_.tolerance) return;
+  const double off = energy_.own_imbalance();
+  const std::string so =
+      sentence(": the motion is off by about ", report_.drift, " of a length, the limit is ",
+               options_.drift_limit, " times the tolerance");
+  if (drift_.by_turning())
+    stop(Stop::momentum_lost, sentence("at time ", state_.time,
+                                       " a body that nothing turns has changed its angular momentum", so));
+  else
+    stop(off < 0.0 ? Stop::energy_lost : Stop::energy_gained,
+         sentence("at time ", state_.time, " the energy of motion is off by ", off, " of the largest seen",
+                  so));
 }
 
 void Controller::cancel() {

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "dynamics/control/drift.h"
 #include "dynamics/control/energy_balance.h"
 #include "dynamics/control/error_scale.h"
 #include "dynamics/control/target.h"
@@ -31,7 +32,9 @@ class Controller {
   struct Past {
     Report report;
     EnergyBalance energy;
-    double start, speed;
+    Drift drift;
+    std::vector<ErrorScale::Speed> speeds;
+    double start;
     long evaluations;
     std::optional<double> step;  ///< the next one, where steps are chosen
   };
@@ -57,6 +60,10 @@ class Controller {
   std::string name_of(std::size_t node) const;
   /// Whether the forces that may refuse a state let a step end there.
   Evaluation asks(const State& state);
+  /// Looks at the energies of the present state, and stops the run where the balance is off.
+  void judge(const Energies& energies);
+  /// Some force remembers: contacts, whose energy comes and goes by intent and by jumps.
+  bool touches() const;
 
   const System& system_;
   SimulationOptions options_;
@@ -64,7 +71,10 @@ class Controller {
   System::WorkspacePtr work_;
   Breaks breaks_;
   ErrorScale scale_;
+  EnergyBalance energy_;
+  Drift drift_;
   double until_, start_;
+  bool pushed_;  ///< by a force without energy, whose work implicit steps know less well than the motion
   bool ended_ = false;
   long other_evaluations_ = 0;  ///< by others than the stepper
   Report report_;               ///< without what report() adds
@@ -74,11 +84,13 @@ class Controller {
   /// A stiff method that chooses its steps takes energy out of what it does not resolve; none may put energy
   /// in.
   virtual bool may_lose_energy() const { return false; }
-  double measure_scales();
+  /// Whether the run was told a tolerance that its motion has to keep.
+  virtual bool keeps_tolerance() const { return false; }
+  void measure_scales();
   void check_energy();
+  void judge_drift();
   void remember();
 
-  EnergyBalance energy_;
   bool may_be_refused_ = false;
 };
 

@@ -21,6 +21,7 @@ void check(const SimulationOptions& options) {
   };
   positive("tolerance", options.tolerance);
   positive("energy_limit", options.energy_limit);
+  positive("drift_limit", options.drift_limit);
   if (options.fixed_step) positive("fixed_step", *options.fixed_step);
   if (!options.own_stepper && options.fixed_step.has_value() == chooses_steps(options.method))
     throw InvalidInput("fixed_step", options.fixed_step ? "given" : "missing",
@@ -81,6 +82,10 @@ const char* to_string(Stop stop) {
       return "not_evaluable";
     case Stop::energy_lost:
       return "energy_lost";
+    case Stop::energy_gained:
+      return "energy_gained";
+    case Stop::momentum_lost:
+      return "momentum_lost";
   }
   return "unknown";
 }

@@ -1,6 +1,7 @@
 #include <tendril/base/error.h>
 #include <tendril/dynamics/forces.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -82,6 +83,14 @@ Vec3 Wind::velocity(const Vec3& x, double t) const {
     gust *= options_.gust / std::sqrt(static_cast<double>(waves_.size()));
   }
   return options_.switched(t) * (1.0 + gust) * options_.mean;
+}
+
+double Wind::period() const {
+  double shortest = options_.switched.period();
+  if (options_.gust > 0.0 && options_.mean.norm() > 0.0)
+    for (const Wave& wave : waves_)
+      if (wave.frequency > 0.0) shortest = std::min(shortest, 1.0 / wave.frequency);
+  return shortest;
 }
 
 Mat3 Wind::velocity_gradient(const Vec3& x, double t) const {

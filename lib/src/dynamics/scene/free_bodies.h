@@ -6,7 +6,14 @@
 
 namespace tendril {
 
-/// Bodies (rods with what rides on them) that nothing holds in place. Springs cancel in the sum of a body's
+/// Rods joined so that each feels the other, or a rod on its own.
+struct Tree {
+  std::vector<std::size_t> nodes;  ///< ascending
+  bool free;                       ///< nothing holds it in place
+};
+std::vector<Tree> trees_of(const Model& model);
+
+/// Bodies that nothing holds in place. Springs cancel in the sum of a body's
 /// equations of motion, so an implicit step's linear equations give the body's way exactly, by masses alone:
 /// sum_k w_k U_k = sum_k b_k with w_k the diagonal of mass and damping. Elimination loses that where springs
 /// are so stiff, or steps so long, that their blocks' rounding outweighs the masses; here it is put back.
@@ -24,7 +31,7 @@ class FreeBodies {
   /// \param weight  w of a pivot's number
   template <class Weight>
   void restore(const Weight& weight, double* u) const {
-    for (const Body& body : bodies_) {
+    for (const Sum& body : bodies_) {
       double by = 0.0;
       Vec3 sum = Vec3::Zero();
       for (const std::size_t k : body.pivots) {
@@ -38,11 +45,11 @@ class FreeBodies {
   }
 
  private:
-  struct Body {
+  struct Sum {
     std::vector<std::size_t> pivots;
     Vec3 sum = Vec3::Zero();
   };
-  std::vector<Body> bodies_;
+  std::vector<Sum> bodies_;
 };
 
 /// Whether there is any.

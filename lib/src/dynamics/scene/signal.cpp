@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -59,6 +60,11 @@ double Signal::operator()(double t) const {
   const auto before = after - 1;
   const double share = (t - before->first) / (after->first - before->first);
   return before->second + share * (after->second - before->second);
+}
+
+double Signal::period() const {
+  const bool waves = kind_ == Kind::sinusoid && amplitude_ != 0.0 && frequency_ != 0.0;
+  return waves ? 1.0 / std::abs(frequency_) : std::numeric_limits<double>::infinity();
 }
 
 std::vector<double> Signal::breaks() const {
