@@ -4,7 +4,8 @@
 core_packages=(g++ cmake ninja-build ccache libeigen3-dev)
 bind_packages=(libcgal-dev)
 test_packages=(libgtest-dev libopenmesh-dev libboost-dev libgmp-dev doxygen)
-runner_packages=(libcli11-dev nlohmann-json3-dev libvalijson-dev libembree-dev libpng-dev)
+scene_packages=(nlohmann-json3-dev libvalijson-dev)
+runner_packages=("${scene_packages[@]}" libcli11-dev libembree-dev libpng-dev)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi

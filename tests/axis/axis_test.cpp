@@ -53,6 +53,21 @@ TEST(Axis, OfATorusIsOneLoopCutOpen) {
   expect_frames_that_do_not_turn(curve);
 }
 
+/// A ring on a stick: the ring is cut where it is farthest from the junction, and both halves stay on.
+TEST(Axis, OfARingOnAStickIsCutAcross) {
+  const Vec3 foot = Vec3::UnitX(), tip = 2.2 * Vec3::UnitX();
+  const auto field = [&](double r) {
+    return [=](const Vec3& p) { return std::min(torus_field(p, 1.0, r), capsule_field(p, foot, tip, r)); };
+  };
+  const axis::AxisTree tree =
+      axis::find_axis(Isosurface(field(0.2), Vec3(-1.31, -1.32, -0.33), Vec3(2.5, 1.3, 0.3), 0.0701).mesh());
+  EXPECT_EQ(tree.report.loops, 1U);
+  ASSERT_EQ(tree.report.cuts.size(), 1U);
+  EXPECT_LT(tree.report.cuts[0].x(), -0.8);
+  ASSERT_EQ(tree.curves.size(), 2U);
+  for (const axis::AxisCurve& curve : tree.curves) EXPECT_LT(farthest(curve, field(0.0)), 0.4 * 0.2);
+}
+
 TEST(Axis, OfThreeTubesHasThreeEndsAndAJunction) {
   const axis::AxisTree tree = axis::find_axis(three_tubes());
   ASSERT_EQ(tree.curves.size(), 2U);

@@ -115,6 +115,11 @@ TEST(ImportLiberally, TakesAFreeFormOffForWhatItIs) {
   const Read read = read_text("OFF\n4 1 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1 2 3\n");
   EXPECT_EQ(read.mesh.points[3], Vec3(0, 1, 0));
   EXPECT_EQ(read.notes, "");
+  // Six numbers in as many lines as there are vertices, and as many lines more as faces: but none of faces.
+  const Read more = read_text("OFF\n4 3 0\n0 0 0 1 0 0\n0 1 0 0 0 1\n5 0 1 2 3 0\n5 1 2 3 0 1\n3\n1 2\n3\n");
+  EXPECT_EQ(more.mesh.points[3], Vec3(0, 0, 1));
+  EXPECT_EQ(more.mesh.face_count(), 3u);
+  EXPECT_EQ(more.notes, "");
 }
 
 TEST(ImportLiberally, NamesASurplusItCannotTell) {

@@ -262,6 +262,10 @@ TEST(Inspect, RefusesWhatIsNoMesh) {
   mesh = tetrahedron();
   mesh.corners[0] = 4;
   EXPECT_THROW(inspect(mesh), InvalidInput);
+  mesh = tetrahedron();
+  mesh.corners.pop_back();  // a face of two
+  --mesh.face_begin.back();
+  EXPECT_THROW(inspect(mesh), InvalidInput);
 }
 
 }  // namespace

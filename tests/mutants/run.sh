@@ -2,13 +2,14 @@
 # Breaks the library in each way of list.txt (a sign, a term, a coefficient), rebuilds it, and runs the tests that must
 # notice. Prints who killed whom; a mutant that ends its program by a crash or a time-out is said to. The exit code is 1
 # when a mutant lives, or when an entry no longer fits the source.
-# Works on a copy in build/mutants; an hour or so on two cores.
-#   tests/mutants/run.sh [FIRST [LAST]]     only these entries, counted from 1
-#   tests/mutants/run.sh --check            only whether every entry fits its source once; seconds, nothing is built
+# Works on a copy in build/mutants; some two hours on two cores.
+#   tests/mutants/run.sh [--only TEXT] [FIRST [LAST]]   only these entries, counted from 1, of files whose paths hold TEXT
+#   tests/mutants/run.sh --check   only whether every entry fits its source once; seconds, nothing is built
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-check=
+check= only=
 if [ "${1:-}" = --check ]; then check=yes && shift; fi
+if [ "${1:-}" = --only ]; then only=$2 && shift 2; fi
 first=${1:-1}
 last=${2:-1000000}
 copy=build/mutants/tree
@@ -26,14 +27,14 @@ while IFS= read -r line; do
     '+ '*) to=${line#'+ '} ;;
     '= '*)
       number=$((number + 1))
-      if ((number < first || number > last)); then continue; fi
+      if ((number < first || number > last)) || [[ $file != *"$only"* ]]; then continue; fi
       read -r program filter <<<"${line#'= '}"
       files+=("$file") froms+=("$from") tos+=("$to") programs+=("$program") filters+=("$filter") numbers+=("$number")
       ;;
     *) echo "tests/mutants/list.txt: cannot read: $line" >&2 && exit 2 ;;
   esac
 done <tests/mutants/list.txt
-((${#files[@]} > 0)) || { echo "list.txt has no entry from $first to $last" >&2; exit 2; }
+((${#files[@]} > 0)) || { echo "list.txt has no entry from $first to $last of files with '$only'" >&2; exit 2; }
 
 # Replaces FROM by TO in a file; fails unless FROM stands there once.
 mutate() { FROM=$2 TO=$3 perl -0pi -e '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/g; END { exit($n == 1 ? 0 : 1) }' "$1"; }
@@ -52,13 +53,13 @@ if [ "$check" ]; then
 fi
 
 . .cmake/packages.sh
-need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}"
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${scene_packages[@]}"
 rm -rf "$copy"
 mkdir -p "$copy"
 # With the present time: what an earlier run has built is older, and built again.
 git ls-files -z | xargs -0 tar c | tar xm -C "$copy"
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_EXAMPLES=OFF -DTENDRIL_SCENE=OFF \
-  -DTENDRIL_TESTS=ON -Wno-dev >/dev/null
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_EXAMPLES=OFF -DTENDRIL_TESTS=ON \
+  -Wno-dev >/dev/null
 
 make_tests() { cmake --build "$build" --target "$@" >build/mutants/build.log 2>&1; }
 mapfile -t all < <(printf '%s\n' "${programs[@]}" | sort -u)
