@@ -162,25 +162,45 @@ TEST_P(EveryVectorUnit, GivesTheBitsOfThePlainLoop) {
     }
 }
 
+std::vector<Vec3> scaled(Points from, double size) {
+  std::vector<Vec3> to;
+  for (const Vec3& p : from) to.push_back(size * p);
+  return to;
+}
+CurvePair scaled(const CurvePair& from, double size) {
+  return {from.knots(), scaled(from.primary().control_points(), size),
+          scaled(from.orientation().control_points(), size)};
+}
+
 TEST(Update, KeepsAnySizeAndPlace) {
   const Case c = make_case(3, 500);
   for (const double size : {1e-120, 1e-20, 1e20, 1e120}) {
-    const auto scaled = [size](Points from) {
-      std::vector<Vec3> to;
-      for (const Vec3& p : from) to.push_back(size * p);
-      return to;
-    };
-    const auto pair = [&](const CurvePair& from) {
-      return CurvePair(from.knots(), scaled(from.primary().control_points()),
-                       scaled(from.orientation().control_points()));
-    };
-    const Binding binding(pair(c.rest[0]), scaled(c.points));
+    const Binding binding(scaled(c.rest[0], size), scaled(c.points, size));
     std::vector<Vec3> rows(c.points.size()), expected(c.points.size());
-    binding.update(pair(c.posed[0]), rows);
+    binding.update(scaled(c.posed[0], size), rows);
     Binding(c.rest[0], c.points).update(c.posed[0], expected);
     EXPECT_LT(binding.report().rest_error, 1e-14 * size) << size;
     for (std::size_t i = 0; i < rows.size(); ++i)
       EXPECT_LT((rows[i] / size - expected[i]).norm(), 1e-9) << size;
+  }
+}
+
+/// Beside such a curve the offsets are nothing. Single precision: squares overflow from some size on.
+TEST(Update, FollowsPosesAsLargeAsNumbersGo) {
+  const Case c = make_case(3, 500);
+  const Binding binding(c.rest[0], c.points);
+  const Bindingf single(binding);
+  const auto at = [&](std::size_t i) { return c.posed[0].primary().value(binding.records()[i].t); };
+  const CurvePair large = scaled(c.posed[0], 1e150);
+  std::vector<Vec3> rows(c.points.size());
+  binding.update(large, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_LT((rows[i] / 1e150 - at(i)).norm(), 1e-12) << i;
+  std::vector<Eigen::Vector3f> rowsf(c.points.size());
+  for (const double size : {1e17, 1e18, 1e19, 1e20, 1e22}) {
+    const CurvePair posed = scaled(c.posed[0], size);
+    single.update({&posed, 1}, rowsf);
+    for (std::size_t i = 0; i < rowsf.size(); ++i)
+      EXPECT_LT((rowsf[i].cast<double>() / size - at(i)).norm(), 1e-4) << size << " " << i;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "spans.h"
 
 #include <cmath>
+#include <limits>
 
 #include "sweep.h"
 
@@ -43,7 +44,7 @@ void limit(double size, Piece<T>& piece) {
   const double speed = std::max(Limits<T>::least_speed * size, Limits<T>::smallest);
   const double area = std::max(Limits<T>::least_sine * fastest, Limits<T>::smallest);
   const bool too_fast = !(fastest * fastest < Limits<T>::largest);
-  piece.least_speed = too_fast ? static_cast<T>(Limits<T>::largest) : static_cast<T>(speed * speed);
+  piece.least_speed = too_fast ? std::numeric_limits<T>::infinity() : static_cast<T>(speed * speed);
   piece.least_area = static_cast<T>(area * area);
 }
 
