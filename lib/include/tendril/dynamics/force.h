@@ -63,6 +63,7 @@ class TENDRIL_CORE_API Force {
   /// that is rejected: what to remember from here on, which add() and energy() find as StateView::memory.
   /// A force that remembers nothing at the start is not asked again. Where the energy jumps with the memory,
   /// the jump counts as work.
+  /// May throw InvalidInput, saying why, for the state of a start that add() refuses.
   /// \param before  what it remembered so far, null at first; return it to keep it
   virtual std::shared_ptr<const ForceMemory> remember(
       const StateView&, const std::shared_ptr<const ForceMemory>& before) const {

@@ -54,6 +54,10 @@ void check_state(const char* name, const System& system, const State& state, Sys
   Eigen::VectorXd rate;
   const Evaluation at = system.derivative(state, state.time, state.y, rate, work);
   if (at.ok() && state.y.allFinite()) return;
+  if (at.outcome == Evaluation::Outcome::refused && state.y.allFinite()) {
+    State copy = state;
+    system.remember(copy, work);  // the force may know more to say
+  }
   throw InvalidInput(sentence(name, ": ", name_of_index(model_of(system), at.node)),
                      describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
                      "a state at which the equations can be evaluated");

@@ -1,0 +1,113 @@
+#include <tendril/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "touch.h"
+
+namespace tendril::contact {
+namespace {
+
+/// The ledger at a new accepted state: a slack less what has moved since, measured anew where little is left.
+class Keeper {
+ public:
+  Keeper(const RodModel& model, const StateView& state, const Ledger* before)
+      : model_(model), state_(state), before_(before), ledger_(std::make_shared<Ledger>()) {
+    ledger_->placed = model.place(state.time);
+    ledger_->p.reserve(model.nodes);
+    for (const ContactRod& rod : model.rods) {
+      const Points all = state.p.subspan(state.rods[rod.rod].first, rod.rest.size());
+      ledger_->p.insert(ledger_->p.end(), all.begin(), all.end());
+    }
+    if (!before) return;
+    ledger_->friction_work = before->friction_work;
+    ledger_->begun = before->begun;
+    ledger_->looked_at = before->looked_at;
+  }
+
+  std::shared_ptr<const Ledger> keep() {
+    measure_slacks();
+    StateView at_end = state_;
+    at_end.memory = before_;
+    const auto closed = each_touch(model_, at_end, ledger_->placed, [&](const Touch& at) { add(at); });
+    if (closed && !before_) refuse(*closed);
+    return std::move(ledger_);
+  }
+
+ private:
+  void measure_slacks() {
+    const std::size_t solids = model_.colliders.size();
+    ledger_->slack.resize(model_.edges.size() * solids);
+    for (std::size_t e = 0; e < model_.edges.size(); ++e)
+      for (std::size_t c = 0; c < solids; ++c) ledger_->slack[e * solids + c] = slack(e, c);
+  }
+
+  double slack(std::size_t e, std::size_t c) {
+    const LineEdge& edge = model_.edges[e];
+    if (before_) {
+      const std::size_t node = model_.node_of(state_, edge);
+      const double moved =
+          model_.moved(*before_, edge, state_.p[node], state_.p[node + 1], c, ledger_->placed[c]);
+      const double left = before_->slack[e * model_.colliders.size() + c] - moved;
+      if (left > std::max(model_.law.range, 2.0 * moved)) return left;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = edge.first; i < edge.end; ++i)
+      least = std::min(least, model_.nearness(state_, i, c, ledger_->placed[c]).gap);
+    ledger_->looked_at += static_cast<long>(edge.end - edge.first);
+    return least - model_.law.range;
+  }
+
+  void add(const Touch& at) {
+    const LinePoint& point = model_.points[at.near.point];
+    const LineEdge& edge = model_.edges[point.edge];
+    const double margin = model_.margin[point.edge * model_.colliders.size() + at.near.collider];
+    const Response& r = at.response;
+    ledger_->contacts.push_back({model_.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider,
+                                 at.near.gap + margin, at.near.x, r.normal, r.force, r.friction, r.sticks});
+    if (model_.law.friction > 0.0) ledger_->stuck.push_back({at.key, r.stick_at});
+    const Contact* was = contact_before(at);
+    if (!was) ++ledger_->begun;
+    const Vec3 moved = at.near.x - (was ? was->point : at.near.x);
+    ledger_->friction_work += 0.5 * (r.friction + (was ? was->friction : Vec3::Zero())).dot(moved);
+  }
+
+  /// The same point's contact with the same solid at the last accepted state.
+  const Contact* contact_before(const Touch& at) const {
+    if (!before_) return nullptr;
+    const LineEdge& edge = model_.edges[model_.points[at.near.point].edge];
+    const auto key = std::tuple(model_.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider);
+    const auto key_of = [](const Contact& c) { return std::tuple(c.rod, c.node, c.fraction, c.solid); };
+    for (const Contact& c : before_->contacts)
+      if (key_of(c) == key) return &c;
+    return nullptr;
+  }
+
+  [[noreturn]] void refuse(const Nearness& closed) const {
+    const LineEdge& edge = model_.edges[model_.points[closed.point].edge];
+    const std::string& name = model_.colliders[closed.collider].name;
+    throw InvalidInput("contact",
+                       "rod " + std::to_string(model_.rods[edge.rod].rod) + " begins within collider " +
+                           std::to_string(closed.collider) + (name.empty() ? "" : " (" + name + ")") +
+                           ": between nodes " + std::to_string(edge.node) + " and " +
+                           std::to_string(edge.node + 1) + " the gap is " + std::to_string(closed.gap),
+                       "an open gap");
+  }
+
+  const RodModel& model_;
+  const StateView& state_;
+  const Ledger* before_;
+  std::shared_ptr<Ledger> ledger_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ForceMemory> RodContact::remember(
+    const StateView& state, const std::shared_ptr<const ForceMemory>& before) const {
+  return Keeper(*model_, state, ledger_of(before.get())).keep();
+}
+
+}  // namespace tendril::contact

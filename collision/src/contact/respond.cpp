@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+
+#include "rod_model.h"
+
+namespace tendril::contact {
+namespace {
+
+/// What slides drags its point behind it, farther than the spring would need, by this factor: else every
+/// change of N would make it stick for a moment, and each accepted step begin with a kink. Where it turns
+/// round, friction turns that much later.
+constexpr double kTrail = 1.1;
+
+/// The normal force m N n, N = -w kappa b', m = max(0, 1 - c d').
+struct Normal {
+  double push;         ///< N
+  Vec3 by_place;       ///< dN / dx
+  double damped;       ///< m
+  Vec3 damped_by_x;    ///< dm / dx
+  double damped_by_v;  ///< dm / dv is this times n
+};
+
+Normal push_of(const Law& law, double weight, const Nearness& near, const Vec3& n, const Mat3& bend,
+               const Vec3& velocity) {
+  const Potential b = potential(law, near.gap);
+  const double k = weight * law.stiffness;
+  Normal result{-k * b.slope, -k * b.bend * n, 1.0, Vec3::Zero(), 0.0};
+  if (law.damping == 0.0) return result;
+  const Vec3 apart = velocity - near.placed->velocity_at(near.x);
+  result.damped = 1.0 - law.damping * n.dot(apart);
+  if (result.damped <= 0.0) {
+    result.damped = 0.0;
+    return result;
+  }
+  result.damped_by_x = -law.damping * (bend * apart - n.cross(near.placed->spin));
+  result.damped_by_v = -law.damping;
+  return result;
+}
+
+/// Coulomb's law by a spring of stiffness k to the point where the surface sticks: -k u while that is less
+/// than mu N, else mu N against u.
+void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n, const Mat3& bend,
+                  const Normal& normal, const Vec3& from, Response& to) {
+  const Vec3 y = near.x - near.placed->to_world(from);
+  const Vec3 u = y - n.dot(y) * n;
+  const Mat3 u_by_x = Mat3::Identity() - n * n.transpose() - n.dot(y) * bend - n * (bend * y).transpose();
+  const double pull = k * u.norm(), most = law.friction * normal.push;
+  to.sticks = pull <= most;
+  to.stick_at = from;
+  if (to.sticks) {
+    to.friction = -k * u;
+    to.by_position += -k * u_by_x;
+  } else {
+    const Vec3 way = u.normalized();
+    to.friction = -most * way;
+    to.by_position += -law.friction * way * normal.by_place.transpose() -
+                      most / u.norm() * (u_by_x - way * (way.transpose() * u_by_x));
+    if (pull > kTrail * most) to.stick_at = near.placed->to_local(near.x - kTrail * most / k * way);
+  }
+  to.force += to.friction;
+}
+
+}  // namespace
+
+Response respond(const Shape& shape, const Law& law, double weight, double stick, const Nearness& near,
+                 const std::optional<Vec3>& from, const Vec3& velocity) {
+  const SignedDistance at = shape.at(near.local);
+  const Mat3& turn = near.placed->rotation;
+  const Vec3 n = turn * at.normal;
+  const Mat3 bend = turn * at.curvature * turn.transpose();
+  const Normal normal = push_of(law, weight, near, n, bend, velocity);
+  Response result{n, normal.damped * normal.push * n, Vec3::Zero(), false, near.local};
+  result.by_position = n * (normal.damped * normal.by_place + normal.push * normal.damped_by_x).transpose() +
+                       normal.damped * normal.push * bend;
+  result.by_velocity = normal.push * normal.damped_by_v * n * n.transpose();
+  if (law.friction > 0.0 && from) add_friction(law, weight * stick, near, n, bend, normal, *from, result);
+  return result;
+}
+
+}  // namespace tendril::contact

@@ -1,0 +1,267 @@
+#include <gtest/gtest.h>
+#include <tendril/contact/rod_contact.h>
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/simulation.h>
+#include <tendril/dynamics/statics.h>
+
+#include <numbers>
+
+#include "support/rods.h"
+
+/// References for contact with known digits: one degree of freedom in a potential, friction, beams on
+/// supports.
+namespace tendril::contact {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const ContactMemory& memory_of(const State& state, std::size_t force = 0) {
+  return dynamic_cast<const ContactMemory&>(*state.memory.at(force));
+}
+
+Vec3 place(const State& state, std::size_t node) {
+  return state.y.segment<3>(static_cast<Eigen::Index>(3 * node));
+}
+Vec3 velocity(const State& state, std::size_t nodes, std::size_t node) {
+  return place(state, nodes + node);
+}
+void set_velocity(State& state, std::size_t nodes, const Vec3& v) {
+  for (std::size_t i = 0; i < nodes; ++i) state.y.segment<3>(static_cast<Eigen::Index>(3 * (nodes + i))) = v;
+}
+
+/// A rod of two masses of 1/2 and of weight 1 that moves as one.
+Rod bar() {
+  Rod rod = test::straight_rod(1, 1e4, 0.05);
+  rod.mass = {0.5, 0.5};
+  return rod;
+}
+
+std::shared_ptr<RodContact> on_floor(const Rod& rod, double radius, double height, const Law& law) {
+  return std::make_shared<RodContact>(
+      std::vector<ContactRod>{{0, radius, rod.p}},
+      std::vector<Collider>{{"floor", half_space(), {.position = Vec3(0, 0, height)}}}, law);
+}
+
+SimulationOptions within(double tolerance, Method method = Method::cash_karp) {
+  SimulationOptions options;
+  options.tolerance = tolerance;
+  options.method = method;
+  return options;
+}
+
+struct Bounce {
+  double time;   ///< within the range
+  double least;  ///< gap
+  double speed;  ///< afterwards
+};
+
+/// A mass of 1 that meets a floor with speed 1, from 1/10 above its range.
+Bounce bounce(const Law& law) {
+  const Rod rod = bar();
+  Scene scene;
+  scene.rods = {rod};
+  const double radius = 0.1, above = 0.1;
+  scene.forces = {on_floor(rod, radius, -radius - law.range - above, law)};
+  const System system(scene);
+  State start = system.rest_state();
+  set_velocity(start, 2, Vec3(0, 0, -1));
+  SimulationOptions options = within(1e-12);
+  options.largest_step = 2e-5;
+  Simulation simulation(system, start, options);
+  Bounce result{0.0, law.range, 0.0};
+  // The parabola through a state's place and speed, bent by the force there, has its lowest point here.
+  simulation.on_progress([&](double) {
+    const ContactMemory& memory = memory_of(simulation.state());
+    if (memory.contacts.empty()) return true;
+    double force = 0.0;
+    for (const Contact& c : memory.contacts) force += c.force.z();
+    const double v = velocity(simulation.state(), 2, 0).z();
+    const double gap = memory.contacts[0].gap, fall = v * v / (2.0 * force);
+    if (fall < 1e-5 * gap) result.least = std::min(result.least, gap - fall);
+    return true;
+  });
+  const double end = 0.4;
+  const Report report = simulation.run(end);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  result.speed = velocity(simulation.state(), 2, 0).z();
+  result.time = end - above - (place(simulation.state(), 0).z() + above) / result.speed;
+  return result;
+}
+
+TEST(ContactBook, OneDegreeOfFreedomAgainstABarrier) {
+  for (const auto& [kappa, least, time] :
+       {std::tuple(1e4, 3.291860e-3, 1.789636e-2), std::tuple(1e6, 8.340216e-3, 4.621420e-3)}) {
+    const Bounce found = bounce({.stiffness = kappa, .range = 0.01});
+    EXPECT_NEAR(found.least, least, 1e-6 * 0.01);
+    EXPECT_NEAR(found.time, time, 1e-6 * time);
+    EXPECT_NEAR(found.speed, 1.0, 1e-9);
+  }
+}
+
+TEST(ContactBook, OneDegreeOfFreedomAgainstASpring) {
+  for (const double k : {1e4, 1e6}) {
+    const Bounce found = bounce({.kind = Law::Kind::penalty, .stiffness = k, .range = 0.01});
+    EXPECT_NEAR(found.time, kPi / std::sqrt(k), 1e-6 * kPi / std::sqrt(k));
+    EXPECT_NEAR(found.speed, 1.0, 1e-9);
+  }
+}
+
+/// Block on a slope of which the tangent is a share of the friction: it holds, or slides by what is left.
+struct Slope {
+  double creep;  ///< [length / time]
+  double slip;   ///< way after a second
+  bool sticks;
+};
+Slope on_slope(double friction, double share, double duration) {
+  const Rod rod = bar();
+  const double angle = std::atan(share * friction), g = 9.81;
+  Law law{.stiffness = 1e4, .range = 0.01, .friction = friction, .damping = 30.0};
+  Scene scene;
+  scene.rods = {rod};
+  scene.rods[0].mass_damping = 5.0;
+  scene.forces = {on_floor(rod, 0.1, -0.1 - 0.005, law),
+                  std::make_shared<Gravity>(g * Vec3(std::sin(angle), 0, -std::cos(angle)))};
+  const System system(scene);
+  Simulation simulation(system, system.rest_state(), within(1e-8, Method::automatic));
+  const std::vector<double> outputs{duration / 2, duration};
+  Report report = simulation.run(duration / 2);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  const double before = place(simulation.state(), 0).x();
+  report = simulation.run(duration);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  const double after = place(simulation.state(), 0).x();
+  const ContactMemory& memory = memory_of(simulation.state());
+  return {(after - before) / (duration / 2), after,
+          !memory.contacts.empty() && std::all_of(memory.contacts.begin(), memory.contacts.end(),
+                                                  [](const Contact& c) { return c.sticks; })};
+}
+
+TEST(ContactBook, WhatSticksDoesNotCreep) {
+  const Slope held = on_slope(0.5, 0.95, 60.0);
+  EXPECT_TRUE(held.sticks);
+  EXPECT_LE(std::abs(held.creep), 1e-12);
+  const Slope slid = on_slope(0.5, 1.05, 2.0);
+  EXPECT_FALSE(slid.sticks);
+  EXPECT_GT(slid.slip, 0.01);
+}
+
+/// A mass on a spring k that friction brakes: from 10.3 mu N / k it comes to rest at -0.3 mu N / k, after
+/// five half periods.
+TEST(ContactBook, FrictionBringsASpringToRestOffItsMiddle) {
+  const Rod rod = bar();
+  const double mu = 0.2, g = 10.0, k = 50.0, unit = mu * g / k, omega = std::sqrt(k);
+  Law law{.stiffness = 1e5, .range = 0.001, .friction = mu, .stick_stiffness = 1e7};
+  // Begins where the floor carries it.
+  double gap = 0.0005;
+  for (int i = 0; i < 60; ++i) {
+    const Potential b = potential(law, gap);
+    gap -= (-law.stiffness * b.slope - g) / (-law.stiffness * b.bend);
+  }
+  Scene scene;
+  scene.rods = {rod};
+  scene.forces = {on_floor(rod, 0.1, -0.1 - gap, law), std::make_shared<Gravity>(Vec3(0, 0, -g)),
+                  std::make_shared<PullTowards>(0, 0, Vec3(-10.3 * unit, 0, 0), k / 2),
+                  std::make_shared<PullTowards>(0, 1, Vec3(1.0 - 10.3 * unit, 0, 0), k / 2)};
+  const System system(scene);
+  Simulation simulation(system, system.rest_state(), within(1e-9));
+  const double rest = 15.70796 / omega;
+  Report report = simulation.run(0.98 * rest);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_LT(velocity(simulation.state(), 2, 0).x(), -1e-4);  // still on its way
+  report = simulation.run(1.2 * rest);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_NEAR(place(simulation.state(), 0).x(), -10.6 * unit, 1e-3 * unit);
+  EXPECT_TRUE(memory_of(simulation.state()).contacts.at(0).sticks);
+}
+
+/// Heavy cantilever at height h over a floor, small slopes, on the floor along a line.
+double clamp_force(int edges, double range) {
+  const double q = 1.0, h = 1e-3, length = 1.0, ratio = 200.0;
+  const double bending = q * std::pow(length, 4) / (h * ratio);
+  Rod rod = test::straight_rod(edges, 1.0, 0.01);
+  const double area = kPi * 1e-4, inertia = kPi * 1e-8 / 4;
+  const double young = bending / inertia;
+  rod = make_rod(rod.p, rod.q, {young, young / 3, q / area}, circular_section(0.01));
+  Scene scene;
+  scene.rods = {rod};
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  // On the floor the weight q is carried at the gap g of kappa b'(g) = -q.
+  const double gap = 0.5 * range;
+  const Law law{.stiffness = q / -potential({.stiffness = 1.0, .range = range}, gap).slope, .range = range};
+  scene.forces = {on_floor(rod, 0.01, -h - 0.01 - gap, law), std::make_shared<Gravity>(Vec3(0, 0, -1.0))};
+  const System system(scene);
+  const Equilibrium found = find_equilibrium(system, system.rest_state());
+  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  EXPECT_EQ(found.stability.kind, Stability::Kind::stable);
+  return found.support[0].z();
+}
+
+TEST(ContactBook, AHeavyCantileverLiesDownAlongALine) {
+  const double exact = 2.0 / 3.0 * std::pow(72.0 / 200.0, 0.25);
+  const auto off = [&](int edges) { return std::abs(clamp_force(edges, 1e-6) / exact - 1.0); };
+  EXPECT_LE(off(64), 1e-3);
+  EXPECT_GE(std::log2(off(16) / off(32)), 1.8);
+}
+
+/// A chain that is drawn over a drum by half a turn, its other end pulled by 1: the ratio of the tensions.
+double capstan(int edges, double mu, double range) {
+  const double drum = 1.0, radius = 0.01, tail = 0.2, pull = 1.0;
+  Law law{.stiffness = 1.0, .range = range, .friction = mu};
+  law.stiffness = pull / drum / -potential({.stiffness = 1.0, .range = range}, 0.5 * range).slope;
+  law.stick_stiffness = 1e4;
+  const double at = drum + radius + 0.5 * range, whole = kPi * at + 2 * tail;
+  const double corner = at / std::cos(0.5 * whole / edges / at);  // edges touch with their middles
+  std::vector<Vec3> p, q;
+  for (int i = 0; i <= edges; ++i) {
+    const double s = whole * i / edges - tail, turn = std::clamp(s / at, 0.0, kPi);
+    const double beyond = s < 0.0 ? s : std::max(0.0, s - kPi * at);
+    const Vec3 out(-std::cos(turn), 0, std::sin(turn)), along(std::sin(turn), 0, std::cos(turn));
+    p.push_back(corner * out + beyond * along);
+    q.push_back(p.back() + 0.1 * Vec3::UnitY());
+  }
+  const double area = kPi * radius * radius;
+  Rod rod = make_rod(p, q, {1e5 / area, 1e5 / area / 3, 0.01 / area}, circular_section(radius));
+  for (auto* springs : {&rod.bend_l, &rod.bend_m, &rod.twist})
+    for (double& k : *springs) k *= 1e-3;
+  rod.mass_damping = 5.0;
+  rod.viscosity = 1e-3;
+  Scene scene;
+  scene.rods = {rod};
+  Anchor hand{.rod = 0, .node = static_cast<std::size_t>(edges), .holds_frame = false};
+  const Vec3 from = p.back();
+  hand.motion = [from](double t) {
+    AnchorPose pose;
+    pose.position = from + Vec3(0, 0, -0.005 * t);
+    pose.velocity = Vec3(0, 0, -0.005);
+    return pose;
+  };
+  scene.anchors.push_back(hand);
+  scene.forces = {
+      std::make_shared<RodContact>(
+          std::vector<ContactRod>{{0, radius, p}},
+          std::vector<Collider>{{"drum",
+                                 cylinder(drum, std::numeric_limits<double>::infinity()),
+                                 {.rotation = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix()}}},
+          law),
+      std::make_shared<PointLoad>(PointLoad::Kind::force, 0, 0, Vec3(0, 0, -pull), Signal::constant(1.0))};
+  const System system(scene);
+  Simulation simulation(system, system.rest_state(), within(1e-5, Method::rodas));
+  const Report report = simulation.run(4.0);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  const ContactMemory& memory = memory_of(simulation.state());
+  EXPECT_LT(memory.friction_work, 0.0);
+  Vec3 sum(0, 0, -pull);
+  for (const Contact& c : memory.contacts) sum += c.force;
+  EXPECT_TRUE(std::none_of(memory.contacts.begin(), memory.contacts.end(),
+                           [](const Contact& c) { return c.sticks; }));
+  return sum.z() / pull;
+}
+
+TEST(ContactBook, AChainOverADrumObeysTheCapstanEquation) {
+  const auto off = [](int edges) { return capstan(edges, 0.3, 1e-3) / std::exp(0.3 * kPi) - 1.0; };
+  EXPECT_GE(std::log2(std::abs(off(16) / off(32))), 1.8);
+  EXPECT_NEAR(off(64), 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace tendril::contact
