@@ -16,7 +16,7 @@ class Keeper {
  public:
   Keeper(const RodModel& model, const StateView& state, const Ledger* before)
       : model_(model), state_(state), before_(before), ledger_(std::make_shared<Ledger>()) {
-    ledger_->placed = model.place(state.time);
+    ledger_->placed = model.place(state);
     ledger_->p.reserve(model.nodes);
     for (const ContactRod& rod : model.rods) {
       const Points all = state.p.subspan(state.rods[rod.rod].first, rod.rest.size());

@@ -15,26 +15,40 @@ RodContact::RodContact(std::vector<ContactRod> rods, std::vector<Collider> colli
 RodContact::~RodContact() = default;
 
 void RodContact::add(const StateView& state, const Loads& loads) const {
-  const auto closed = each_touch(*model_, state, model_->place(state.time), [&](const Touch& at) {
-    loads.force[at.node] += (1.0 - at.fraction) * at.response.force;
-    loads.force[at.node + 1] += at.fraction * at.response.force;
+  const auto closed = each_touch(*model_, state, model_->place(state), [&](const Touch& at) {
+    const Vec3& force = at.response.force;
+    loads.force[at.node] += (1.0 - at.fraction) * force;
+    loads.force[at.node + 1] += at.fraction * force;
+    if (const auto& body = model_->colliders[at.near.collider].body)
+      loads.bodies[*body].add_at(at.near.x, -force, at.near.placed->position);
   });
   if (closed) loads.refuse(model_->node_of(state, model_->edges[model_->points[closed->point].edge]));
 }
 
-Couplings RodContact::couplings(std::span<const NodeRange>) const {
-  const auto derivatives = [model = model_.get()](const StateView& state, LoadDerivatives& to) {
-    each_touch(*model, state, model->place(state.time), [&](const Touch& at) {
-      const double share[2] = {1.0 - at.fraction, at.fraction};
-      for (std::size_t i = 0; i < 2; ++i)
-        for (std::size_t j = 0; j < 2; ++j) {
-          to.add_by_position(at.node + i, at.node + j, share[i] * share[j] * at.response.by_position);
-          if (model->law.damping > 0.0)
-            to.add_by_velocity(at.node + i, at.node + j, share[i] * share[j] * at.response.by_velocity);
-        }
-    });
+Couplings RodContact::couplings(std::span<const NodeRange> rods) const {
+  auto derivatives = [model = model_.get()](const StateView& state, LoadDerivatives& to) {
+    each_touch(*model, state, model->place(state),
+               [&](const Touch& at) { add_derivatives(*model, state, at, to); });
   };
-  return Couplings::within(1).with(derivatives);
+  if (model_->bodies.empty()) return Couplings::within(1).with(std::move(derivatives));
+  const std::size_t nodes = rods.empty() ? 0 : rods.back().first + rods.back().count;
+  std::vector<Couplings::Pair> pairs;
+  for (const ContactRod& rod : model_->rods)
+    for (std::size_t i = rods[rod.rod].first, end = i + rods[rod.rod].count; i < end; ++i) {
+      if (i + 1 < end) pairs.emplace_back(i, i + 1);
+      for (const std::size_t body : model_->bodies)
+        for (const std::size_t turn : {0, 1}) pairs.emplace_back(i, nodes + 2 * body + turn);
+    }
+  for (const std::size_t body : model_->bodies) pairs.emplace_back(nodes + 2 * body, nodes + 2 * body + 1);
+  return Couplings::between(std::move(pairs)).with(std::move(derivatives));
+}
+
+Couplings RodContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {
+  for (std::size_t i = 0; i < model_->colliders.size(); ++i)
+    if (const auto& body = model_->colliders[i].body; body && *body >= bodies)
+      throw InvalidInput("contact.colliders[" + std::to_string(i) + "].body", std::to_string(*body),
+                         "below the number of free bodies, " + std::to_string(bodies));
+  return couplings(rods);
 }
 
 void RodContact::check(std::span<const NodeRange> rods) const {
@@ -56,7 +70,7 @@ bool RodContact::has_energy() const {
 
 double RodContact::energy(const StateView& state) const {
   double sum = 0.0;
-  each_touch(*model_, state, model_->place(state.time), [&](const Touch& at) {
+  each_touch(*model_, state, model_->place(state), [&](const Touch& at) {
     sum += at.weight * model_->law.stiffness * potential(model_->law, at.near.gap).value;
   });
   return sum;

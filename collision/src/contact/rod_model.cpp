@@ -28,6 +28,8 @@ void check_rod(const ContactRod& rod, std::size_t i) {
 void check_collider(const Collider& collider, std::size_t i, double thickest) {
   const std::string place = "contact.colliders[" + std::to_string(i) + "]";
   if (!collider.shape) throw InvalidInput(place + ".shape", "none", "a shape");
+  if (collider.body && collider.driven)
+    throw InvalidInput(place + ".driven", "given", "none for a free body");
   const Placement& at = collider.placement;
   if (!is_finite(at.position) || !at.rotation.allFinite() ||
       !((at.rotation * at.rotation.transpose() - Mat3::Identity()).norm() < 1e-9))
@@ -55,11 +57,14 @@ RodModel::RodModel(std::vector<ContactRod> of, std::vector<Collider> with, const
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     check_collider(colliders[i], i, thickest + law.range);
     driven = driven || colliders[i].driven;
+    if (colliders[i].body) bodies.push_back(*colliders[i].body);
   }
   for (std::uint32_t i = 0; i < rods.size(); ++i) {
     lay_points(i, static_cast<std::uint32_t>(nodes));
     nodes += rods[i].rest.size();
   }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   lay_margins();
 }
 
@@ -110,17 +115,18 @@ void RodModel::lay_margins() {
   }
 }
 
-std::vector<Placement> RodModel::place(double time) const {
+std::vector<Placement> RodModel::place(const StateView& state) const {
   std::vector<Placement> result;
   result.reserve(colliders.size());
-  for (const Collider& collider : colliders) result.push_back(collider.at(time));
+  for (const Collider& collider : colliders) result.push_back(collider.at(state));
   return result;
 }
 
 double RodModel::moved(const Ledger& kept, const LineEdge& edge, const Vec3& a, const Vec3& b,
                        std::size_t collider, const Placement& placed) const {
   const Vec3 &a0 = kept.p[edge.global], &b0 = kept.p[edge.global + 1];
-  if (!colliders[collider].driven) return std::sqrt(std::max((a - a0).squaredNorm(), (b - b0).squaredNorm()));
+  if (!colliders[collider].moves())
+    return std::sqrt(std::max((a - a0).squaredNorm(), (b - b0).squaredNorm()));
   const Placement& before = kept.placed[collider];
   return std::max((placed.to_local(a) - before.to_local(a0)).norm(),
                   (placed.to_local(b) - before.to_local(b0)).norm());

@@ -54,14 +54,15 @@ struct RodModel {
   std::vector<ContactRod> rods;
   std::vector<Collider> colliders;
   Law law;
-  double stick;  ///< stiffness of what sticks
-  bool driven = false;
+  double stick;                          ///< stiffness of what sticks
+  bool driven = false;                   ///< some collider is
+  std::vector<std::size_t> bodies = {};  ///< of the scene that are colliders, ascending
   std::vector<LineEdge> edges;
   std::vector<LinePoint> points;
   std::vector<double> margin;  ///< per edge and collider: by how much a gap is taken smaller
   std::size_t nodes = 0;       ///< of all rods in contact
 
-  std::vector<Placement> place(double time) const;
+  std::vector<Placement> place(const StateView& state) const;
   /// Flat index of an edge's first node in a state.
   std::size_t node_of(const StateView& state, const LineEdge& edge) const {
     return state.rods[rods[edge.rod].rod].first + edge.node;

@@ -14,7 +14,68 @@ Vec3 stuck_at(const RodModel& model, const Ledger& kept, const LinePoint& at, st
   return model.local_before(kept, at, collider);
 }
 
+/// [a] x b = a x b.
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Derivatives of a force f on a point at r from a body's centre, by the body's place, turn, velocity and
+/// spin. The law f(x - c, v - u - omega x r) turns with the body:
+/// df/dphi = -[f] + K [r] + D [v - u - omega x r], K by the point's place alone and D by its velocity.
+struct ByBody {
+  Mat3 place, turn, velocity, spin;
+
+  ByBody(const Response& response, const Vec3& r, const Vec3& apart, const Vec3& omega)
+      : place(-response.by_position), velocity(-response.by_velocity) {
+    const Mat3 k = response.by_position + response.by_velocity * cross_matrix(omega);
+    turn = -cross_matrix(response.force) + k * cross_matrix(r) + response.by_velocity * cross_matrix(apart);
+    spin = response.by_velocity * cross_matrix(r);
+  }
+};
+
+/// The part of a touch that a free body has: its wrench is (-f, -r x f).
+void add_body(const StateView& state, const Touch& at, std::size_t body, LoadDerivatives& to) {
+  const Vec3 r = at.near.x - at.near.placed->position;
+  const Vec3 velocity = RodModel::between(state.v[at.node], state.v[at.node + 1], at.fraction);
+  const Vec3 apart = velocity - at.near.placed->velocity_at(at.near.x);
+  const ByBody by(at.response, r, apart, at.near.placed->spin);
+  const Mat3 arm = cross_matrix(r), f = cross_matrix(at.response.force);
+  const std::size_t place = state.p.size() + 2 * body, turn = place + 1;
+  const double share[2] = {1.0 - at.fraction, at.fraction};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t node = at.node + i;
+    to.add_by_position(node, place, share[i] * by.place);
+    to.add_by_position(node, turn, share[i] * by.turn);
+    to.add_by_velocity(node, place, share[i] * by.velocity);
+    to.add_by_velocity(node, turn, share[i] * by.spin);
+    to.add_by_position(place, node, -share[i] * at.response.by_position);
+    to.add_by_velocity(place, node, -share[i] * at.response.by_velocity);
+    to.add_by_position(turn, node, share[i] * (f - arm * at.response.by_position));
+    to.add_by_velocity(turn, node, -share[i] * arm * at.response.by_velocity);
+  }
+  to.add_by_position(place, place, -by.place);
+  to.add_by_position(place, turn, -by.turn);
+  to.add_by_velocity(place, place, -by.velocity);
+  to.add_by_velocity(place, turn, -by.spin);
+  to.add_by_position(turn, place, -f - arm * by.place);
+  to.add_by_position(turn, turn, -arm * by.turn);
+  to.add_by_velocity(turn, place, -arm * by.velocity);
+  to.add_by_velocity(turn, turn, -arm * by.spin);
+}
+
 }  // namespace
+
+void add_derivatives(const RodModel& model, const StateView& state, const Touch& at, LoadDerivatives& to) {
+  const double share[2] = {1.0 - at.fraction, at.fraction};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      to.add_by_position(at.node + i, at.node + j, share[i] * share[j] * at.response.by_position);
+      to.add_by_velocity(at.node + i, at.node + j, share[i] * share[j] * at.response.by_velocity);
+    }
+  if (const auto& body = model.colliders[at.near.collider].body) add_body(state, at, *body, to);
+}
 
 Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, const Nearness& near) {
   const LinePoint& at = model.points[near.point];

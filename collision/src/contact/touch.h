@@ -17,6 +17,9 @@ inline const Ledger* ledger_of(const ForceMemory* memory) {
   return static_cast<const Ledger*>(memory);
 }
 
+/// Adds the derivatives of what a touch does to its nodes, and to its solid where that is a free body.
+void add_derivatives(const RodModel& model, const StateView& state, const Touch& at, LoadDerivatives& to);
+
 /// The response to a point within the range.
 Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, const Nearness& near);
 

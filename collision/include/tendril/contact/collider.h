@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tendril/contact/shape.h>
+#include <tendril/dynamics/force.h>
 
 #include <functional>
 #include <optional>
@@ -24,17 +25,24 @@ struct Placement {
   Vec3 velocity_at(const Vec3& x) const { return velocity + spin.cross(x - position); }
 };
 
-/// A solid that rods and surfaces meet: fixed, or driven in time. What it does to them it does not feel.
+/// A solid that rods meet: fixed, driven in time, or a free rigid body of the scene, which feels what it does.
 struct Collider {
   std::string name;     ///< for reports; may be empty
   ShapePtr shape;       ///< not null
-  Placement placement;  ///< where it stands, unless driven
+  Placement placement;  ///< where it stands, unless driven or a body
   /// Where it is at a time. Pure and continuous; empty for what is fixed.
   std::function<Placement(double time)> driven = {};
   std::vector<double> breaks = {};  ///< times where its velocity jumps: steps end there
+  /// Index of the body of Scene::bodies whose shape this is: the frames are the same.
+  std::optional<std::size_t> body = {};
 
-  /// At a time.
-  Placement at(double time) const { return driven ? driven(time) : placement; }
+  /// Where it is in a state.
+  Placement at(const StateView& state) const {
+    if (!body) return driven ? driven(state.time) : placement;
+    const BodyView& at = state.bodies[*body];
+    return {at.rotation, at.position, at.velocity, at.spin};
+  }
+  bool moves() const { return driven || body; }  ///< or stands still for ever
 };
 
 }  // namespace tendril::contact

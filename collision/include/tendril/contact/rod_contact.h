@@ -65,6 +65,7 @@ class TENDRIL_CONTACT_API RodContact final : public Force {
 
   void add(const StateView& state, const Loads& loads) const override;
   Couplings couplings(std::span<const NodeRange> rods) const override;
+  Couplings couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const override;
   void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override;
   double energy(const StateView& state) const override;
