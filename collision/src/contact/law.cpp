@@ -21,6 +21,7 @@ void check(const Law& law, const std::string& place) {
   require(positive(law.range), place + ".range", law.range, "a positive length");
   require(at_least_0(law.friction), place + ".friction", law.friction, "at least 0");
   require(at_least_0(law.stick_stiffness), place + ".stick_stiffness", law.stick_stiffness, "at least 0");
+  require(at_least_0(law.stick_damping), place + ".stick_damping", law.stick_damping, "at least 0");
   require(at_least_0(law.damping), place + ".damping", law.damping, "at least 0");
 }
 

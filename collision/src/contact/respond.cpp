@@ -37,30 +37,59 @@ Normal push_of(const Law& law, double weight, const Nearness& near, const Vec3& 
   return result;
 }
 
-/// Coulomb's law by a spring of stiffness k to the point where the surface sticks: -k u while that is less
-/// than mu N, else mu N against u.
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Coulomb's law by a spring of stiffness k to the point where the surface sticks: with u the way from there
+/// across the normal, s = u + beta u', the force is -k s while that is less than mu N, else mu N against s.
 void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n, const Mat3& bend,
-                  const Normal& normal, const Vec3& from, Response& to) {
-  const Vec3 y = near.x - near.placed->to_world(from);
-  const Vec3 u = y - n.dot(y) * n;
-  const Mat3 u_by_x = Mat3::Identity() - n * n.transpose() - n.dot(y) * bend - n * (bend * y).transpose();
-  const double pull = k * u.norm(), most = law.friction * normal.push;
+                  const Normal& normal, const Vec3& from, const Vec3& velocity, Response& to) {
+  const auto along = [&](const Vec3& y) -> Vec3 { return y - n.dot(y) * n; };
+  const auto along_by_x = [&](const Vec3& y) -> Mat3 {
+    return -n.dot(y) * bend - n * (bend * y).transpose();
+  };
+  const Mat3 across = Mat3::Identity() - n * n.transpose();
+  const Vec3 y = near.x - near.placed->to_world(from), rate = velocity - near.placed->velocity_at(near.x);
+  const Vec3 u = along(y), s = u + law.stick_damping * along(rate);
+  const Mat3 by_v = law.stick_damping * across;
+  const Mat3 by_x =
+      across + along_by_x(y) + law.stick_damping * along_by_x(rate) - by_v * cross_matrix(near.placed->spin);
+  const double pull = k * s.norm(), most = law.friction * normal.push;
   to.sticks = pull <= most;
   to.stick_at = from;
   if (to.sticks) {
-    to.friction = -k * u;
-    to.by_position += -k * u_by_x;
+    to.friction = -k * s;
+    to.by_position += -k * by_x;
+    to.by_velocity += -k * by_v;
   } else {
-    const Vec3 way = u.normalized();
+    const Vec3 way = s.normalized();
+    const Mat3 turns = most / s.norm() * (Mat3::Identity() - way * way.transpose());
     to.friction = -most * way;
-    to.by_position += -law.friction * way * normal.by_place.transpose() -
-                      most / u.norm() * (u_by_x - way * (way.transpose() * u_by_x));
-    if (pull > kTrail * most) to.stick_at = near.placed->to_local(near.x - kTrail * most / k * way);
+    to.by_position += -law.friction * way * normal.by_place.transpose() - turns * by_x;
+    to.by_velocity += -turns * by_v;
+    const double far = kTrail * most / k;
+    if (u.norm() > far) to.stick_at = near.placed->to_local(near.x - far * u.normalized());
   }
   to.force += to.friction;
 }
 
 }  // namespace
+
+bool clear_way(const Shape& shape, const Nearness& near, const Vec3& before, double radius, double range) {
+  const Vec3 way = before - near.local;
+  const double length = way.norm();
+  if (length < near.gap) return true;
+  double s = near.gap;
+  while (s < length) {
+    const double gap = shape.distance(near.local + s / length * way) - radius;
+    if (!(gap > 0.0)) return false;
+    s += std::max(gap, 1e-4 * range);
+  }
+  return true;
+}
 
 Response respond(const Shape& shape, const Law& law, double weight, double stick, const Nearness& near,
                  const std::optional<Vec3>& from, const Vec3& velocity) {
@@ -73,7 +102,8 @@ Response respond(const Shape& shape, const Law& law, double weight, double stick
   result.by_position = n * (normal.damped * normal.by_place + normal.push * normal.damped_by_x).transpose() +
                        normal.damped * normal.push * bend;
   result.by_velocity = normal.push * normal.damped_by_v * n * n.transpose();
-  if (law.friction > 0.0 && from) add_friction(law, weight * stick, near, n, bend, normal, *from, result);
+  if (law.friction > 0.0 && from)
+    add_friction(law, weight * stick, near, n, bend, normal, *from, velocity, result);
   return result;
 }
 

@@ -25,20 +25,6 @@ void check_rod(const ContactRod& rod, std::size_t i) {
   if (!all_finite(rod.rest)) throw InvalidInput(place_of_rod(i) + ".rest", "not finite", "finite points");
 }
 
-void check_collider(const Collider& collider, std::size_t i, double thickest) {
-  const std::string place = "contact.colliders[" + std::to_string(i) + "]";
-  if (!collider.shape) throw InvalidInput(place + ".shape", "none", "a shape");
-  if (collider.body && collider.driven)
-    throw InvalidInput(place + ".driven", "given", "none for a free body");
-  const Placement& at = collider.placement;
-  if (!is_finite(at.position) || !at.rotation.allFinite() ||
-      !((at.rotation * at.rotation.transpose() - Mat3::Identity()).norm() < 1e-9))
-    throw InvalidInput(place + ".placement", "no finite place and rotation", "a rotation matrix");
-  if (!(collider.shape->bore() > thickest))
-    throw InvalidInput(place + ".shape", "a hollow of radius " + std::to_string(collider.shape->bore()),
-                       "more than a rod's radius and the range, " + std::to_string(thickest));
-}
-
 }  // namespace
 
 RodModel::RodModel(std::vector<ContactRod> of, std::vector<Collider> with, const Law& how)
@@ -55,7 +41,7 @@ RodModel::RodModel(std::vector<ContactRod> of, std::vector<Collider> with, const
   if (rods.empty()) throw InvalidInput("contact.rods", "none", "at least one");
   if (colliders.empty()) throw InvalidInput("contact.colliders", "none", "at least one");
   for (std::size_t i = 0; i < colliders.size(); ++i) {
-    check_collider(colliders[i], i, thickest + law.range);
+    contact::check(colliders[i], i, thickest + law.range);
     driven = driven || colliders[i].driven;
     if (colliders[i].body) bodies.push_back(*colliders[i].body);
   }
@@ -150,21 +136,11 @@ Vec3 RodModel::local_before(const Ledger& kept, const LinePoint& at, std::size_t
   return kept.placed[collider].to_local(between(kept.p[node], kept.p[node + 1], at.fraction));
 }
 
-/// Spheres of free space along the way back [Hart 1996]. A step over less than 1e-4 of the range may pass
-/// what is thinner than that of the widened solid, and so lies within the rod's own radius.
 bool RodModel::reachable(const Ledger& kept, const Nearness& near) const {
   const LinePoint& at = points[near.point];
-  const Vec3 way = local_before(kept, at, near.collider) - near.local;
-  const double length = way.norm();
-  if (length < near.gap) return true;
   const double taken = near.radius + margin[at.edge * colliders.size() + near.collider];
-  double s = near.gap;
-  while (s < length) {
-    const double gap = colliders[near.collider].shape->distance(near.local + s / length * way) - taken;
-    if (!(gap > 0.0)) return false;
-    s += std::max(gap, 1e-4 * law.range);
-  }
-  return true;
+  return clear_way(*colliders[near.collider].shape, near, local_before(kept, at, near.collider), taken,
+                   law.range);
 }
 
 }  // namespace tendril::contact

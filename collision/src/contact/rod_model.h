@@ -121,6 +121,12 @@ struct Response {
   Mat3 by_position = Mat3::Zero(), by_velocity = Mat3::Zero();  ///< of the force
 };
 
+/// Whether the straight way of a point whose gap is open, from `before` in the solid's frame, keeps the gap
+/// open: spheres of free space along the way back [Hart 1996]. A step over less than 1e-4 of the range may
+/// pass what is thinner than that of the widened solid, and so lies within the point's own radius.
+/// \param radius  by which the solid is widened
+bool clear_way(const Shape& shape, const Nearness& near, const Vec3& before, double radius, double range);
+
 /// \param from      where the point stuck, in the frame of the solid; empty for nowhere yet
 /// \param velocity  of the point
 Response respond(const Shape& shape, const Law& law, double weight, double stick, const Nearness& near,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace tendril::contact {
@@ -16,6 +17,11 @@ double positive_or_infinite(double value, const char* what) {
 }
 double positive(double value, const char* what) {
   return positive_or_infinite(value < kInfinite ? value : 0.0, what);
+}
+
+/// Of a line or a circle, each at most `apart` long; at most 10^4.
+int parts_of(double length, double apart) {
+  return static_cast<int>(std::min(1e4, std::ceil(length / apart)));
 }
 
 /// The distance of a feature (a point, a line, a face) from which x stands `away`: the part of space across
@@ -52,6 +58,14 @@ class Capsule final : public Shape {
   double distance(const Vec3& x) const override { return from_axis(x).norm() - radius_; }
   double outward_radius() const override { return radius_; }
   double extent() const override { return half_ + radius_; }
+  bool round() const override { return true; }
+  std::vector<ShapePoint> points(double depth) const override {
+    const int parts = parts_of(2.0 * half_, std::sqrt(8.0 * radius_ * depth));
+    std::vector<ShapePoint> result;
+    for (int i = 0; i <= parts; ++i)
+      result.push_back({Vec3(0, 0, parts > 0 ? half_ * (2.0 * i / parts - 1.0) : 0.0), radius_});
+    return result;
+  }
 
  private:
   Vec3 from_axis(const Vec3& x) const { return {x.x(), x.y(), x.z() - std::clamp(x.z(), -half_, half_)}; }
@@ -77,6 +91,12 @@ class Box final : public Shape {
   }
   double outward_radius() const override { return 0.0; }
   double extent() const override { return half_.norm(); }
+  std::vector<ShapePoint> points(double) const override {
+    std::vector<ShapePoint> result;
+    for (int i = 0; i < 8; ++i)
+      result.push_back({half_.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)), 0.0});
+    return result;
+  }
 
  private:
   SignedDistance within(const Vec3& x) const {
@@ -113,6 +133,17 @@ class Revolved final : public Shape {
     return edges ? 0.0 : outer_;
   }
   double extent() const override { return std::hypot(outer_, half_); }
+  std::vector<ShapePoint> points(double depth) const override {
+    std::vector<ShapePoint> result;
+    if (!(half_ < kInfinite && outer_ < kInfinite)) return result;
+    const int parts = std::max(8, parts_of(2.0 * std::numbers::pi * outer_, std::sqrt(8.0 * outer_ * depth)));
+    for (const double z : {-half_, half_})
+      for (int i = 0; i < parts; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / parts;
+        result.push_back({Vec3(outer_ * std::cos(angle), outer_ * std::sin(angle), z), 0.0});
+      }
+    return result;
+  }
   double bore() const override { return inner_ > 0.0 ? inner_ : kInfinite; }
 
  private:

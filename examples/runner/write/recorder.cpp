@@ -1,5 +1,7 @@
 #include "write/recorder.h"
 
+#include "draw/solid.h"
+
 #include <tendril/base/file.h>
 #include <tendril/bind/export.h>
 
@@ -37,6 +39,7 @@ Recorder::Recorder(const scene::SceneFile& file, RecorderOptions options, Phases
 
 void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mesh) {
   trajectory_.add(snapshot);
+  contact_.add(snapshot);
   if (mesh != nullptr && options_.frames) {
     const Phases::Timer timer(phases_, Phases::write);
     const bool single = !options_.double_precision && bind::single_precision_serves(mesh->mesh().points);
@@ -49,6 +52,8 @@ void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mes
 }
 
 void Recorder::look(const scene::Snapshot& snapshot) {
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+    fit_.include(reach_of(file_.bodies[i].shape, snapshot.bodies[i]));
   if (!snapshot.points.empty()) {
     fit_.include(snapshot.points);
     return;
@@ -64,6 +69,9 @@ void Recorder::look(const scene::Snapshot& snapshot) {
 void Recorder::write_trajectory() {
   const Phases::Timer timer(phases_, Phases::write);
   write("trajectory.csv", trajectory_.csv());
+  if (file_.bodies.empty()) return;
+  write("bodies.csv", contact_.bodies());
+  write("contacts.csv", contact_.contacts());
 }
 
 void Recorder::write(const std::string& name, const std::string& bytes) {

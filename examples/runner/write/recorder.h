@@ -1,6 +1,7 @@
 #pragma once
 
 #include "draw/camera.h"
+#include "write/contact_tables.h"
 #include "write/phases.h"
 
 #include <tendril/scene/scene_run.h>
@@ -31,6 +32,7 @@ class Recorder {
   const scene::Snapshot& last() const { return last_; }
   Camera camera() const { return fit_.camera(); }
 
+  /// And the tables of solids and contacts, where the scene has any.
   void write_trajectory();
   void write(const std::string& name, const std::string& bytes);
 
@@ -44,6 +46,7 @@ class Recorder {
   std::vector<std::size_t> numbers_;  ///< of the outputs to keep
   std::size_t count_ = 0;
   scene::Trajectory trajectory_;
+  ContactTables contact_;
   std::vector<std::string> files_;
   std::vector<scene::Snapshot> panels_;
   scene::Snapshot last_;

@@ -1,6 +1,7 @@
 #include "write/run_pictures.h"
 
 #include "draw/drawing.h"
+#include "draw/solid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,24 @@ class Painter {
       }
       if (file_.draw_axis) drawing.over.insert(drawing.over.end(), axis.begin(), axis.end());
     }
+    bind::PolygonMesh all;
+    if (!moment.bodies.empty()) {
+      if (drawing.mesh != nullptr) all = colored(mesh_);
+      for (std::size_t i = 0; i < moment.bodies.size(); ++i)
+        add_solid(file_.bodies[i].shape, moment.bodies[i], camera_.centre, camera_.size, all);
+      drawing.mesh = &all;
+    }
     return draw(drawing, camera_, view, threads_);
   }
 
  private:
+  /// The mesh with a color at every point, as solids have.
+  static bind::PolygonMesh colored(bind::PolygonMesh mesh) {
+    if (mesh.point_colors.empty()) mesh.point_colors.assign(mesh.points.size(), {176, 161, 146, 255});
+    mesh.face_colors.clear();
+    return mesh;
+  }
+
   const scene::SceneRun& run_;
   const scene::SceneFile& file_;
   bind::PolygonMesh mesh_;  ///< moved from moment to moment

@@ -5,10 +5,12 @@
 #include <tendril/dynamics/simulation.h>
 #include <tendril/dynamics/statics_options.h>
 #include <tendril/dynamics/system.h>
+#include <tendril/scene/contact.h>
 #include <tendril/scene/scene_error.h>
 #include <tendril/scene/view.h>
 
 #include <map>
+#include <optional>
 #include <string_view>
 
 namespace tendril::scene {
@@ -27,6 +29,8 @@ struct SceneFile {
   std::vector<std::string> joint_places;     ///< JSON pointer of each joint of the scene,
   std::vector<std::string> anchor_places;    ///< of each anchor (a range of nodes has one for each)
   std::vector<std::string> force_places;     ///< and of each force
+  std::vector<SceneBody> bodies;             ///< solids that rods meet
+  std::optional<std::size_t> contact;        ///< index of their contact among the scene's forces
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
   SimulationOptions options;                 ///< method, tolerance, limits, degree of the curves

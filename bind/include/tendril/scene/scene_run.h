@@ -24,6 +24,8 @@ struct Snapshot {
   std::vector<CurvePair> pairs;                ///< the curve-pairs
   std::vector<std::vector<Vec3>> masses;       ///< per curve-pair and node
   std::vector<std::vector<Vec3>> orientation;  ///< the orientation masses beside them
+  std::vector<SolidPose> bodies = {};          ///< of the scene's solids
+  std::vector<ContactPoint> contacts = {};     ///< of rods with them
 };
 
 /// Seconds of wall time, outputs not counted.

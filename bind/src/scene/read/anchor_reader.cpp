@@ -108,17 +108,34 @@ Range read_range(const JsonNode& anchor, const Rod& rod) {
 
 }  // namespace
 
+std::function<AnchorPose(double)> read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame) {
+  if (!node.has("translation") && !node.has("rotation")) return {};
+  Motion motion;
+  motion.rest = motion.about = rest;
+  motion.frame = frame;
+  if (node.has("translation")) {
+    const JsonNode way = node.at("translation");
+    motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
+  }
+  if (node.has("rotation")) {
+    const Rotation rotation = read_rotation(node.at("rotation"));
+    motion.axis = rotation.axis;
+    motion.angle = rotation.angle;
+    motion.angle_wave = rotation.wave;
+    motion.about = rotation.about.value_or(rest);
+  }
+  return motion;
+}
+
 std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, const Rod& rod) {
   const Range range = read_range(anchor, rod);
   const std::string hold = anchor.text_or("hold", "both");
   const NodeFrames frames = node_frames(rod.p, rod.q);
-  std::optional<Rotation> rotation;
-  if (anchor.has("rotation")) rotation = read_rotation(anchor.at("rotation"));
-
   std::vector<Anchor> out;
   for (std::size_t i = range.first; i <= range.last; ++i) {
     Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
     if (anchor.has("until")) one.until = anchor.at("until").number();
+<<<<<<< HEAD
     Motion motion;
     motion.rest = motion.about = rod.p[i];
     motion.frame = frames.frame[i];
@@ -136,6 +153,9 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
       one.motion = motion;
       one.period = motion.period();
     }
+=======
+    one.motion = read_motion(anchor, rod.p[i], frames.frame[i]);
+>>>>>>> 3b16b1d (Let free bodies meet solids, and scenes say what meets what)
     out.push_back(one);
   }
   return out;

@@ -7,6 +7,11 @@
 
 namespace tendril::scene {
 
+/// The motion that `translation` and `rotation` of a node of the file say, or nothing where it has neither.
+/// \param rest   the place that moves, and about which it turns unless the file says otherwise
+/// \param frame  that turns
+std::function<AnchorPose(double)> read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame);
+
 /// One entry of a curve-pair's anchors: an anchor for each node it names.
 std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, const Rod& rod);
 

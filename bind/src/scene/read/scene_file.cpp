@@ -1,6 +1,7 @@
 #include "scene/json/line_of.h"
 #include "scene/json/schema.h"
 #include "scene/read/anchor_reader.h"
+#include "scene/read/contact_reader.h"
 #include "scene/read/force_reader.h"
 #include "scene/read/rod_reader.h"
 #include "scene/read/simulation_reader.h"
@@ -137,6 +138,10 @@ std::optional<std::size_t> index_of(const std::string& place, const std::string&
 /// The part of the file that a place in the library's words is about; empty where it is about all of it.
 std::string pointer_of(const SceneFile& file, const std::string& place) {
   if (const auto rod = index_of(place, "rods")) return "/curve_pairs/" + std::to_string(*rod);
+  if (place.rfind("contact", 0) == 0 && file.contact) return file.force_places[*file.contact];
+  if (const auto body = index_of(place, "bodies"))
+    for (const SceneBody& one : file.bodies)
+      if (one.free == body) return one.pointer;
   const auto entry = [&](const char* what, const std::vector<std::string>& places) -> std::string {
     const auto index = index_of(place, what);
     return index && *index < places.size() ? places[*index] : "";
@@ -163,6 +168,7 @@ SceneFile read_text(std::string_view text, const std::string& name) {
   read_mesh_name(file, out);
   read_bound_to(file, out);
   if (file.has("forces")) read_forces(file.at("forces"), out);
+  read_contact(file, out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
   read_simulation(file.at("simulation"), out);
   if (file.has("statics")) read_statics(file.at("statics"), out);

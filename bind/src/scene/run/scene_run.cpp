@@ -1,3 +1,5 @@
+#include "scene/read/contact_reader.h"
+
 #include <tendril/scene/scene_run.h>
 
 #include <chrono>
@@ -17,6 +19,15 @@ class Stopwatch {
   double& sum_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
+
+SolidPose pose_of(const SceneBody& body, const std::vector<BodyView>& free, double time) {
+  if (body.free) return {free[*body.free].rotation, free[*body.free].position};
+  const AnchorPose pose = body.motion ? body.motion(time) : body.pose;
+  SolidPose out;
+  out.rotation << pose.frame.x, pose.frame.y, pose.frame.z;
+  out.position = pose.position;
+  return out;
+}
 
 Simulation make_simulation(const SceneFile& file, const System& system, const RunOptions& options) {
   try {
@@ -62,6 +73,9 @@ struct SceneRun::Implementation : Follower {
     const State& state = simulation.state();
     const auto pairs = simulation.pairs();
     Snapshot out{state.time, {}, {pairs.begin(), pairs.end()}, {}, {}};
+    const std::vector<BodyView> free = system.bodies(state);
+    for (const SceneBody& body : file.bodies) out.bodies.push_back(pose_of(body, free, state.time));
+    out.contacts = contacts_of(file, state);
     if (mesh) {
       const Stopwatch watch(seconds.update);
       mesh->update(pairs, threads);

@@ -71,6 +71,10 @@ void add_scene(OrderedJson& out, const SceneFile& file, const System& system) {
   out["joints"] = file.joint_places.size();
   out["anchors"] = file.anchor_places.size();
   out["forces"] = file.force_places.size();
+  if (!file.bodies.empty()) {
+    out["bodies"] = OrderedJson::array();
+    for (const SceneBody& body : file.bodies) out["bodies"].push_back(body.name);
+  }
 }
 
 void add_mesh(OrderedJson& out, const BoundMesh* bound) {

@@ -45,4 +45,10 @@ struct Collider {
   bool moves() const { return driven || body; }  ///< or stands still for ever
 };
 
+/// InvalidInput("contact.colliders[i].field") for a shape missing, a placement that is none, what is both free
+/// and driven, and a hollow that has no room.
+/// \param i         its index
+/// \param thickest  radius of a ball that has to fit in its hollow
+TENDRIL_CONTACT_API void check(const Collider& collider, std::size_t i, double thickest);
+
 }  // namespace tendril::contact

@@ -28,6 +28,9 @@ struct Law {
   double friction = 0.0;
   /// What sticks gives way by the friction over this [force / length per length]; 0 for the stiffness.
   double stick_stiffness = 0.0;
+  /// What sticks is also held by its velocity times this and that stiffness [time], at least 0: without, it
+  /// swings about its place for ever.
+  double stick_damping = 0.0;
   /// c of [Hunt and Crossley 1975] [time / length]: the normal force is multiplied by 1 - c d', at least by
   /// 0. At least 0.
   double damping = 0.0;

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 /// Solids that rods and surfaces come into contact with, by their signed distance.
 namespace tendril::contact {
@@ -14,6 +15,12 @@ struct SignedDistance {
   double value;    ///< to its surface; negative within
   Vec3 normal;     ///< the gradient of phi: away from the solid, unit
   Mat3 curvature;  ///< the Hessian of phi; 0 along the normal. Where phi has a kink, one side's
+};
+
+/// A ball that belongs to a solid.
+struct ShapePoint {
+  Vec3 centre;    ///< in the solid's frame
+  double radius;  ///< at least 0
 };
 
 /// A solid. Extension point: derive, and hand it to a Body; nothing else knows which shapes there are.
@@ -33,6 +40,10 @@ class TENDRIL_CONTACT_API Shape {
   virtual double outward_radius() const = 0;
   /// From the frame's origin to the farthest point of the solid; infinite where it has none.
   virtual double extent() const = 0;
+  /// Balls in the solid such that a half space meets the solid no more than `depth` before it meets one of
+  /// them. Where `round()`, any solid does. Empty for a solid that cannot be a free body.
+  virtual std::vector<ShapePoint> points(double /*depth*/) const { return {}; }
+  virtual bool round() const { return false; }  ///< all of its points have a positive radius
   /// Room within the solid's hollow for a ball, by its radius: infinite where there is no hollow.
   virtual double bore() const { return std::numeric_limits<double>::infinity(); }
 };

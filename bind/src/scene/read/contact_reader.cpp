@@ -1,0 +1,239 @@
+#include "scene/read/contact_reader.h"
+
+#include "scene/read/anchor_reader.h"
+
+#include <tendril/contact/body_contact.h>
+#include <tendril/contact/rod_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace tendril::scene {
+namespace {
+
+using Type = SolidShape::Type;
+
+constexpr double kRangeOfRadius = 0.1;  // the default range over the least radius
+constexpr double kCarries = 0.1;        // of an energy, by a barrier: kappa w range^2
+
+const std::map<std::string, std::pair<Type, std::vector<std::string>>>& shape_types() {
+  static const std::map<std::string, std::pair<Type, std::vector<std::string>>> types{
+      {"half_space", {Type::half_space, {}}},
+      {"ball", {Type::ball, {"radius"}}},
+      {"capsule", {Type::capsule, {"radius", "length"}}},
+      {"box", {Type::box, {"size"}}},
+      {"cylinder", {Type::cylinder, {"radius", "length"}}},
+      {"tube", {Type::tube, {"inner", "radius", "length"}}}};
+  return types;
+}
+
+contact::ShapePtr make_shape(const SolidShape& shape) {
+  switch (shape.type) {
+    case Type::half_space:
+      return contact::half_space();
+    case Type::ball:
+      return contact::ball(shape.radius);
+    case Type::capsule:
+      return contact::capsule(shape.half, shape.radius);
+    case Type::box:
+      return contact::box(shape.size);
+    case Type::cylinder:
+      return contact::cylinder(shape.radius, shape.half);
+    case Type::tube:
+      return contact::tube(shape.inner, shape.radius, shape.half);
+  }
+  return nullptr;
+}
+
+SolidShape read_shape(const JsonNode& node) {
+  const auto& [type, keys] = shape_types().at(node.at("type").text());
+  for (const auto& item : node.value().items())
+    if (item.key() != "type" && std::find(keys.begin(), keys.end(), item.key()) == keys.end())
+      node.at(item.key()).refuse("not a key of this shape", "what belongs to its type");
+  SolidShape shape;
+  shape.type = type;
+  for (const std::string& key : keys) node.at(key);
+  if (node.has("radius")) shape.radius = node.at("radius").positive();
+  if (node.has("inner")) shape.inner = node.at("inner").positive();
+  if (node.has("length")) shape.half = 0.5 * node.at("length").positive();
+  if (node.has("size")) shape.size = 0.5 * node.at("size").vec3();
+  node.locate([&] { return make_shape(shape); });
+  return shape;
+}
+
+/// Principal moments of a body of uniform density and mass 1.
+Vec3 moments(const SolidShape& shape) {
+  const double r2 = shape.radius * shape.radius, h2 = shape.half * shape.half;
+  const auto round = [](double about_axis, double across) { return Vec3(across, across, about_axis); };
+  switch (shape.type) {
+    case Type::box: {
+      const Vec3 s = shape.size.cwiseProduct(shape.size) / 3.0;
+      return {s.y() + s.z(), s.z() + s.x(), s.x() + s.y()};
+    }
+    case Type::cylinder:
+      return round(r2 / 2, r2 / 4 + h2 / 3);
+    case Type::tube: {
+      const double both = r2 + shape.inner * shape.inner;
+      return round(both / 2, both / 4 + h2 / 3);
+    }
+    case Type::capsule: {
+      // A cylinder and two half balls, by their volumes.
+      const double body = 2.0 * shape.half, ends = 4.0 / 3.0 * shape.radius;
+      const double c = body / (body + ends), e = 1.0 - c;
+      const double offset = shape.half * shape.half + 0.75 * shape.half * shape.radius;
+      return round(c * r2 / 2 + e * 0.4 * r2, c * (r2 / 4 + h2 / 3) + e * (0.4 * r2 + offset));
+    }
+    case Type::ball:
+    case Type::half_space:
+      break;
+  }
+  return Vec3::Constant(0.4 * r2);
+}
+
+Mat3 rotation_of(const Frame& frame) {
+  Mat3 m;
+  m << frame.x, frame.y, frame.z;
+  return m;
+}
+
+/// z along a direction; or turned by an angle about an axis.
+Frame read_frame(const JsonNode& body) {
+  Mat3 m = Mat3::Identity();
+  if (body.has("axis")) {
+    const Vec3 axis = body.at("axis").vec3();
+    if (!(axis.stableNorm() > 0.0)) body.at("axis").refuse("no direction", "a vector that is not zero");
+    m = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis.stableNormalized()).toRotationMatrix();
+  }
+  return {m.col(0), m.col(1), m.col(2)};
+}
+
+Body read_free(const JsonNode& node, const SceneBody& body) {
+  Body out;
+  out.mass = node.at("mass").positive();
+  if (body.shape.type == Type::half_space) node.refuse("a half space", "a body of finite size");
+  out.inertia = (out.mass * moments(body.shape)).asDiagonal();
+  out.position = body.pose.position;
+  out.rotation = rotation_of(body.pose.frame);
+  if (node.has("velocity")) out.velocity = node.at("velocity").vec3();
+  if (node.has("spin")) out.spin = node.at("spin").vec3();
+  return out;
+}
+
+SceneBody read_body(const JsonNode& node, std::size_t index, SceneFile& out) {
+  SceneBody body;
+  body.pointer = node.pointer();
+  body.name = node.text_or("name", "body_" + std::to_string(index));
+  for (const SceneBody& other : out.bodies)
+    if (other.name == body.name) node.refuse("the name \"" + body.name + "\" is taken", "a name of its own");
+  body.shape = read_shape(node.at("shape"));
+  if (node.has("position")) body.pose.position = node.at("position").vec3();
+  body.pose.frame = read_frame(node);
+  body.motion = read_motion(node, body.pose.position, body.pose.frame);
+  if (!node.has("free")) return body;
+  if (body.motion) node.at("free").refuse("beside a motion", "one of them, not both");
+  body.free = out.scene.bodies.size();
+  out.scene.bodies.push_back(read_free(node.at("free"), body));
+  return body;
+}
+
+contact::Collider make_collider(const SceneBody& body) {
+  const auto placed = [](const AnchorPose& pose) {
+    return contact::Placement{rotation_of(pose.frame), pose.position, pose.velocity, pose.angular_velocity};
+  };
+  contact::Collider out{body.name, make_shape(body.shape), placed(body.pose)};
+  if (body.motion) out.driven = [placed, motion = body.motion](double t) { return placed(motion(t)); };
+  out.body = body.free;
+  return out;
+}
+
+/// Rods are as thick as they are wide, unless the file says otherwise.
+std::vector<contact::ContactRod> read_rods(const JsonNode& list, const SceneFile& scene) {
+  std::vector<contact::ContactRod> rods;
+  for (std::size_t i = 0; i < scene.scene.rods.size(); ++i) {
+    const JsonNode one = list.at(i);
+    const double radius =
+        one.has("contact_radius") ? one.at("contact_radius").positive() : 0.5 * scene.thickness[i];
+    if (!(radius > 0.0)) one.refuse("no thickness to come into contact with", "a contact_radius");
+    rods.push_back({i, radius, scene.scene.rods[i].p});
+  }
+  return rods;
+}
+
+/// A barrier that carries a tenth of what all rods and every body gain when they fall by the scene's longest
+/// rod.
+double default_stiffness(const JsonNode& contact, const SceneFile& scene, double range, double radius) {
+  double g = 0.0, mass = 0.0, length = 0.0, longest = 0.0;
+  for (const auto& force : scene.scene.forces)
+    if (const auto a = force->uniform_acceleration()) g = std::max(g, a->norm());
+  if (!(g > 0.0)) contact.refuse("no stiffness, and no gravity to choose one by", "a stiffness");
+  for (const Rod& rod : scene.scene.rods) {
+    double one = 0.0;
+    for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) one += (rod.p[i + 1] - rod.p[i]).norm();
+    for (const double m : rod.mass) mass += m;
+    length += one;
+    longest = std::max(longest, one);
+  }
+  double stiffness = kCarries * mass * g * longest / (length * range * range);
+  for (const Body& body : scene.scene.bodies)
+    stiffness = std::max(
+        stiffness, kCarries * body.mass * g * longest / (std::sqrt(8.0 * radius * range) * range * range));
+  return stiffness;
+}
+
+contact::Law read_law(const JsonNode& node, const SceneFile& scene,
+                      const std::vector<contact::ContactRod>& rods) {
+  contact::Law law;
+  if (node.text_or("response", "barrier") == "penalty") law.kind = contact::Law::Kind::penalty;
+  double least = std::numeric_limits<double>::infinity();
+  for (const contact::ContactRod& rod : rods) least = std::min(least, rod.radius);
+  law.range = node.has("range") ? node.at("range").positive() : kRangeOfRadius * least;
+  law.stiffness = node.has("stiffness") ? node.at("stiffness").positive()
+                                        : default_stiffness(node, scene, law.range, least);
+  law.friction = node.has("friction") ? node.at("friction").not_negative() : 0.0;
+  law.damping = node.has("damping") ? node.at("damping").not_negative() : 0.0;
+  if (node.has("stick_damping")) law.stick_damping = node.at("stick_damping").not_negative();
+  if (node.has("stick_stiffness")) law.stick_stiffness = node.at("stick_stiffness").positive();
+  return law;
+}
+
+}  // namespace
+
+void read_contact(const JsonNode& file, SceneFile& out) {
+  if (!file.has("bodies")) {
+    if (file.has("contact")) file.at("contact").refuse("no bodies", "bodies that rods meet");
+    return;
+  }
+  const JsonNode list = file.at("bodies");
+  for (std::size_t i = 0; i < list.size(); ++i) out.bodies.push_back(read_body(list.at(i), i, out));
+  static const Json kDefault = Json::object();
+  const JsonNode contact = file.has("contact") ? file.at("contact") : JsonNode(file.file(), kDefault, "");
+  if (contact.text_or("response", "barrier") == "off" || out.bodies.empty()) return;
+  const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
+  std::vector<contact::Collider> colliders;
+  for (const SceneBody& body : out.bodies) colliders.push_back(make_collider(body));
+  const JsonNode place = file.has("contact") ? contact : list;
+  const contact::Law law = read_law(contact, out, rods);
+  const auto add = [&](std::shared_ptr<const Force> force) {
+    out.scene.forces.push_back(std::move(force));
+    out.force_places.push_back(place.pointer());
+  };
+  out.contact = out.scene.forces.size();
+  place.locate([&] { add(std::make_shared<contact::RodContact>(rods, colliders, law)); });
+  if (out.scene.bodies.empty() || out.bodies.size() < 2) return;
+  place.locate([&] { add(std::make_shared<contact::BodyContact>(colliders, law)); });
+}
+
+std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state) {
+  std::vector<ContactPoint> result;
+  if (!file.contact || *file.contact >= state.memory.size()) return result;
+  const auto* memory = dynamic_cast<const contact::ContactMemory*>(state.memory[*file.contact].get());
+  if (memory == nullptr) return result;
+  for (const contact::Contact& c : memory->contacts)
+    result.push_back(
+        {c.rod, c.node, c.fraction, c.solid, c.gap, c.point, c.normal, c.force, c.friction, c.sticks});
+  return result;
+}
+
+}  // namespace tendril::scene

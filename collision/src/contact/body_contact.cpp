@@ -1,0 +1,126 @@
+#include <tendril/base/error.h>
+#include <tendril/contact/body_contact.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "body_model.h"
+
+namespace tendril::contact {
+namespace {
+
+const BodyLedger* ledger_of(const ForceMemory* memory) {
+  return static_cast<const BodyLedger*>(memory);
+}
+
+/// The body that a closed gap is told of, as a flat index.
+std::size_t index_of(const BodyModel& model, const StateView& state, const Nearness& closed) {
+  return state.p.size() + 2 * *model.colliders[model.points[closed.point].collider].body;
+}
+
+[[noreturn]] void refuse(const BodyModel& model, const Nearness& closed) {
+  const std::size_t first = model.points[closed.point].collider;
+  const auto named = [&](std::size_t i) {
+    const std::string& name = model.colliders[i].name;
+    return "collider " + std::to_string(i) + (name.empty() ? "" : " (" + name + ")");
+  };
+  throw InvalidInput("contact",
+                     named(first) + " begins within " + named(closed.collider) + ": the gap is " +
+                         std::to_string(closed.gap),
+                     "an open gap");
+}
+
+}  // namespace
+
+BodyContact::BodyContact(std::vector<Collider> colliders, const Law& law)
+    : model_(std::make_unique<const BodyModel>(std::move(colliders), law)) {}
+BodyContact::~BodyContact() = default;
+
+void BodyContact::add(const StateView& state, const Loads& loads) const {
+  const std::vector<Placement> placed = model_->place(state);
+  const auto closed = model_->each_touch(placed, ledger_of(state.memory), [&](const BodyContactPoint& at) {
+    const Collider &first = model_->colliders[model_->points[at.near.point].collider],
+                   &second = model_->colliders[at.near.collider];
+    loads.bodies[*first.body].add_at(at.surface, at.response.force, state.bodies[*first.body].position);
+    if (second.body)
+      loads.bodies[*second.body].add_at(at.surface, -at.response.force, state.bodies[*second.body].position);
+  });
+  if (closed) loads.refuse(index_of(*model_, state, *closed));
+}
+
+Couplings BodyContact::couplings(std::span<const NodeRange> rods) const {
+  const std::size_t nodes = rods.empty() ? 0 : rods.back().first + rods.back().count;
+  std::vector<Couplings::Pair> all;
+  for (const auto& [point, collider] : model_->pairs) {
+    const std::size_t first = nodes + 2 * *model_->colliders[model_->points[point].collider].body;
+    all.emplace_back(first, first + 1);
+    if (!model_->colliders[collider].body) continue;
+    const std::size_t second = nodes + 2 * *model_->colliders[collider].body;
+    all.emplace_back(second, second + 1);
+    for (const std::size_t a : {first, first + 1})
+      for (const std::size_t b : {second, second + 1}) all.emplace_back(a, b);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return Couplings::between(std::move(all));
+}
+
+Couplings BodyContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {
+  for (std::size_t i = 0; i < model_->colliders.size(); ++i)
+    if (const auto& body = model_->colliders[i].body; body && *body >= bodies)
+      throw InvalidInput("contact.colliders[" + std::to_string(i) + "].body", std::to_string(*body),
+                         "below the number of free bodies, " + std::to_string(bodies));
+  return couplings(rods);
+}
+
+bool BodyContact::has_energy() const {
+  return !model_->driven && model_->law.friction == 0.0 && model_->law.damping == 0.0;
+}
+
+double BodyContact::energy(const StateView& state) const {
+  double sum = 0.0;
+  model_->each_touch(model_->place(state), ledger_of(state.memory), [&](const BodyContactPoint& at) {
+    sum += model_->points[at.near.point].weight * model_->law.stiffness *
+           potential(model_->law, at.near.gap).value;
+  });
+  return sum;
+}
+
+bool BodyContact::refuses() const {
+  return model_->barrier();
+}
+
+bool BodyContact::depends_on_time() const {
+  return model_->driven;
+}
+
+std::vector<double> BodyContact::breaks() const {
+  std::vector<double> result;
+  for (const Collider& collider : model_->colliders)
+    result.insert(result.end(), collider.breaks.begin(), collider.breaks.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::shared_ptr<const ForceMemory> BodyContact::remember(
+    const StateView& state, const std::shared_ptr<const ForceMemory>& before) const {
+  const BodyLedger* kept = ledger_of(before.get());
+  auto next = std::make_shared<BodyLedger>();
+  next->placed = model_->place(state);
+  const auto closed = model_->each_touch(next->placed, kept, [&](const BodyContactPoint& at) {
+    const std::size_t first = model_->points[at.near.point].collider, second = at.near.collider;
+    next->touches.push_back({first, second, at.near.gap, at.surface, at.response.normal, at.response.force,
+                             at.response.friction, at.response.sticks});
+    if (model_->law.friction > 0.0)
+      next->meetings.push_back({at.key, next->placed[first].to_local(at.surface),
+                                next->placed[second].to_local(at.surface),
+                                next->placed[second].rotation.transpose() * at.apart});
+  });
+  if (closed && !kept) refuse(*model_, *closed);
+  std::sort(next->meetings.begin(), next->meetings.end(),
+            [](const Meeting& a, const Meeting& b) { return a.key < b.key; });
+  return next;
+}
+
+}  // namespace tendril::contact

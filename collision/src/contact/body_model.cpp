@@ -1,0 +1,105 @@
+#include "body_model.h"
+
+#include <tendril/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tendril::contact {
+
+BodyModel::BodyModel(std::vector<Collider> with, const Law& how)
+    : colliders(std::move(with)),
+      law(how),
+      stick(how.stick_stiffness > 0.0 ? how.stick_stiffness : how.stiffness) {
+  contact::check(law, "contact.law");
+  for (std::size_t i = 0; i < colliders.size(); ++i) contact::check(colliders[i], i, 0.0);
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    driven = driven || colliders[i].driven;
+    if (colliders[i].body) add_points(i);
+  }
+  if (points.empty()) throw InvalidInput("contact.colliders", "no free body among them", "at least one");
+  for (std::size_t i = 0; i < points.size(); ++i) add_pairs(i);
+}
+
+void BodyModel::add_points(std::size_t collider) {
+  const std::vector<ShapePoint> all = colliders[collider].shape->points(law.range / 16.0);
+  if (all.empty())
+    throw InvalidInput("contact.colliders[" + std::to_string(collider) + "].shape", "no points to be met at",
+                       "a shape that a free body can have");
+  for (const ShapePoint& at : all)
+    points.push_back({collider, at, at.radius > 0.0 ? 2.0 * at.radius : law.range});
+}
+
+/// A round body meets everything; of two round ones the points of the first meet the second. What has edges
+/// meets half spaces: nothing else bends outward by an infinite radius.
+void BodyModel::add_pairs(std::size_t point) {
+  const std::size_t own = points[point].collider;
+  const bool round = colliders[own].shape->round();
+  for (std::size_t c = 0; c < colliders.size(); ++c) {
+    if (c == own || (colliders[c].body && colliders[c].body == colliders[own].body)) continue;
+    const bool other_round = colliders[c].body && colliders[c].shape->round();
+    const bool flat = colliders[c].shape->outward_radius() == std::numeric_limits<double>::infinity();
+    if (round ? !(other_round && c < own) : flat) {
+      pairs.emplace_back(point, c);
+    } else if (!round && !other_round) {
+      throw InvalidInput("contact.colliders[" + std::to_string(own) + "].shape",
+                         "a body with edges could meet collider " + std::to_string(c) +
+                             ", which is no half space and no free ball or capsule",
+                         "a ball or a capsule");
+    }
+  }
+}
+
+std::vector<Placement> BodyModel::place(const StateView& state) const {
+  std::vector<Placement> result;
+  result.reserve(colliders.size());
+  for (const Collider& collider : colliders) result.push_back(collider.at(state));
+  return result;
+}
+
+Nearness BodyModel::nearness(std::size_t point, std::size_t collider,
+                             const std::vector<Placement>& placed) const {
+  const ShapePoint& at = points[point].at;
+  const Vec3 x = placed[points[point].collider].to_world(at.centre);
+  const Vec3 local = placed[collider].to_local(x);
+  const double gap = colliders[collider].shape->distance(local) - at.radius;
+  return {point, collider, x, local, gap, &placed[collider], at.radius};
+}
+
+bool BodyModel::reachable(const BodyLedger& kept, const Nearness& near) const {
+  const BodyPoint& point = points[near.point];
+  const Vec3 before =
+      kept.placed[near.collider].to_local(kept.placed[point.collider].to_world(point.at.centre));
+  return clear_way(*colliders[near.collider].shape, near, before, point.at.radius, law.range);
+}
+
+BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const BodyLedger* kept,
+                                  const Nearness& near) const {
+  const BodyPoint& point = points[near.point];
+  const Placement &first = placed[point.collider], &second = placed[near.collider];
+  const Shape& shape = *colliders[near.collider].shape;
+  const Vec3 n = second.rotation * shape.at(near.local).normal;
+  const Vec3 surface = near.x - near.radius * n;
+  BodyContactPoint out{near, surface,
+                       respond(shape, law, point.weight, 0.0, near, {}, first.velocity_at(surface)),
+                       near.point * colliders.size() + near.collider, Vec3::Zero()};
+  if (law.friction == 0.0 || !kept) return out;
+  const auto was = std::lower_bound(kept->meetings.begin(), kept->meetings.end(), out.key,
+                                    [](const Meeting& m, std::uint64_t key) { return m.key < key; });
+  if (was == kept->meetings.end() || was->key != out.key) return out;
+  const Vec3 apart =
+      second.rotation * was->pulled + first.to_world(was->on_first) - second.to_world(was->on_second);
+  out.apart = apart - n.dot(apart) * n;
+  const double push = out.response.force.dot(n);
+  const Vec3 rate = first.velocity_at(surface) - second.velocity_at(surface);
+  const Vec3 pulled = out.apart + law.stick_damping * (rate - n.dot(rate) * n);
+  const double k = point.weight * stick, pull = k * pulled.norm(), most = law.friction * push;
+  out.response.sticks = pull <= most;
+  out.response.friction = -(out.response.sticks ? k : most / pulled.norm()) * pulled;
+  if (k * out.apart.norm() > most) out.apart *= most / (k * out.apart.norm());
+  out.response.force += out.response.friction;
+  return out;
+}
+
+}  // namespace tendril::contact

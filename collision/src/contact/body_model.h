@@ -1,0 +1,76 @@
+#pragma once
+
+#include <tendril/contact/body_contact.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "rod_model.h"
+
+namespace tendril::contact {
+
+/// A ball of a free body.
+struct BodyPoint {
+  std::size_t collider;  ///< that it belongs to
+  ShapePoint at;
+  double weight;
+};
+
+/// What two solids had in common at the last accepted state: friction pulls by how far the points of both
+/// that met there have come apart since, and by what it pulled then.
+struct Meeting {
+  std::uint64_t key;         ///< point times the number of colliders, plus the other collider
+  Vec3 on_first, on_second;  ///< where they met, in the frames of both
+  Vec3 pulled;               ///< what they had come apart by then, in the frame of the second
+};
+
+struct BodyLedger final : BodyMemory {
+  std::vector<Placement> placed;  ///< per collider
+  std::vector<Meeting> meetings;  ///< ascending
+};
+
+/// A point of a free body in the range of another solid.
+struct BodyContactPoint {
+  Nearness near;  ///< `point` is of the model
+  Vec3 surface;   ///< of the first body, where it is nearest to the second
+  Response response;
+  std::uint64_t key;
+  Vec3 apart;  ///< what the surfaces have come apart by, that friction pulls with
+};
+
+struct BodyModel {
+  BodyModel(std::vector<Collider> colliders, const Law& law);
+
+  std::vector<Collider> colliders;
+  Law law;
+  double stick;
+  bool driven = false;
+  std::vector<BodyPoint> points;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< of points and colliders that they may meet
+
+  std::vector<Placement> place(const StateView& state) const;
+  bool barrier() const { return law.kind == Law::Kind::barrier; }
+  /// How a point is to a collider.
+  Nearness nearness(std::size_t point, std::size_t collider, const std::vector<Placement>& placed) const;
+  bool reachable(const BodyLedger& kept, const Nearness& near) const;
+  BodyContactPoint touch(const std::vector<Placement>& placed, const BodyLedger* kept,
+                         const Nearness& near) const;
+
+  /// Calls visit(BodyContactPoint) for all in range; what a barrier cannot let be, and ends there.
+  template <class Visit>
+  std::optional<Nearness> each_touch(const std::vector<Placement>& placed, const BodyLedger* kept,
+                                     Visit&& visit) const {
+    for (const auto& [point, collider] : pairs) {
+      const Nearness near = nearness(point, collider, placed);
+      if (barrier() && (!(near.gap > 0.0) || (kept && !reachable(*kept, near)))) return near;
+      if (near.gap < law.range) visit(touch(placed, kept, near));
+    }
+    return {};
+  }
+
+ private:
+  void add_points(std::size_t collider);
+  void add_pairs(std::size_t point);
+};
+
+}  // namespace tendril::contact

@@ -1,0 +1,39 @@
+#include "write/contact_tables.h"
+
+#include <tendril/base/number.h>
+
+namespace tendril::runner {
+namespace {
+
+void append(std::string& line, const Vec3& v) {
+  for (const double x : v) line.append(1, ',').append(shortest(x));
+}
+void append(std::string& line, std::size_t number) {
+  line.append(1, ',').append(std::to_string(number));
+}
+
+}  // namespace
+
+void ContactTables::add(const scene::Snapshot& snapshot) {
+  const std::string time = shortest(snapshot.time);
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    const scene::SolidPose& pose = snapshot.bodies[i];
+    bodies_ += time;
+    append(bodies_, i);
+    for (const Vec3& v : {pose.position, Vec3(pose.rotation.col(0)), Vec3(pose.rotation.col(2))})
+      append(bodies_, v);
+    bodies_ += '\n';
+  }
+  for (const scene::ContactPoint& c : snapshot.contacts) {
+    contacts_ += time;
+    append(contacts_, c.curve_pair);
+    append(contacts_, c.node);
+    contacts_.append(1, ',').append(shortest(c.fraction));
+    append(contacts_, c.body);
+    contacts_.append(1, ',').append(shortest(c.gap));
+    for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(contacts_, v);
+    contacts_ += c.sticks ? ",1\n" : ",0\n";
+  }
+}
+
+}  // namespace tendril::runner

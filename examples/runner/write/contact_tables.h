@@ -1,0 +1,26 @@
+#pragma once
+
+#include <tendril/scene/scene_run.h>
+
+#include <string>
+
+namespace tendril::runner {
+
+/// The solids of a run, and what rods are in contact with, as two tables: numbers are the shortest that read
+/// back to the same double; lines end with "\n".
+class ContactTables {
+ public:
+  void add(const scene::Snapshot& snapshot);
+
+  /// A line for each output and solid: where it is, and its axes x and z.
+  const std::string& bodies() const { return bodies_; }
+  /// A line for each output and point in contact.
+  const std::string& contacts() const { return contacts_; }
+
+ private:
+  std::string bodies_ = "time,body,x,y,z,xx,xy,xz,zx,zy,zz\n";
+  std::string contacts_ =
+      "time,rod,node,fraction,body,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
+};
+
+}  // namespace tendril::runner

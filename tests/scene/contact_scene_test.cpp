@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+#include <tendril/scene/scene_run.h>
+#include <tendril/scene/summary.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tendril::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A ball above a clamped rod over the ground, beside a post that moves away.
+Json scene() {
+  return Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [
+      {"name": "leaf", "points": [[0, 0, 0.5], [0.4, 0, 0.55], [0.8, 0, 0.5]], "nodes": 9, "orientation": [0, 1, 0],
+       "material": {"young": 2e8, "poisson": 0.35, "density": 400},
+       "section": {"type": "circular", "radius": 0.01},
+       "mass_damping": 1.0, "viscosity": 0.002, "anchors": [{"node": 0}]}],
+    "bodies": [
+      {"name": "ground", "shape": {"type": "half_space"}},
+      {"name": "ball", "shape": {"type": "ball", "radius": 0.05}, "position": [0.5, 0.002, 0.7],
+       "free": {"mass": 0.02, "velocity": [0, 0, -0.5]}},
+      {"shape": {"type": "box", "size": [0.1, 0.1, 0.4]}, "position": [-0.2, 0, 0.2], "axis": [1, 0, 1],
+       "translation": {"velocity": [-0.1, 0, 0]}}],
+    "contact": {"friction": 0.3, "damping": 0.1},
+    "forces": [{"type": "gravity", "acceleration": [0, 0, -9.81]}],
+    "simulation": {"duration": 0.3, "tolerance": 1e-4, "frames": 31, "method": "automatic"}
+  })");
+}
+
+scene::SceneFile read(const Json& scene) {
+  return scene::parse_scene(scene.dump(1), "scene.json");
+}
+
+TEST(ContactScene, ReadsSolidsAndTheirContact) {
+  const scene::SceneFile file = read(scene());
+  ASSERT_EQ(file.bodies.size(), 3u);
+  EXPECT_EQ(file.bodies[1].name, "ball");
+  EXPECT_EQ(file.bodies[1].free, 0u);
+  EXPECT_EQ(file.bodies[2].name, "body_2");
+  EXPECT_TRUE(file.bodies[2].motion);
+  EXPECT_FALSE(file.bodies[0].motion);
+  EXPECT_EQ(file.contact, 1u);
+  ASSERT_EQ(file.scene.bodies.size(), 1u);
+  EXPECT_NEAR(file.scene.bodies[0].inertia(0, 0), 0.4 * 0.02 * 0.05 * 0.05, 1e-18);
+  EXPECT_EQ(file.scene.bodies[0].velocity, Vec3(0, 0, -0.5));
+}
+
+TEST(ContactScene, ABallFallsOnALeafAndIsThrownOff) {
+  scene::SceneRun run(read(scene()));
+  double pressed = 0.0, least = 1.0;
+  std::vector<scene::Snapshot> seen;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    seen.push_back(now);
+    for (const scene::ContactPoint& c : now.contacts) {
+      EXPECT_EQ(c.body, 1u);
+      pressed = std::max(pressed, c.force.norm());
+      least = std::min(least, c.gap);
+      EXPECT_NEAR((c.point - now.bodies[1].position).norm() - 0.05 - 0.01, c.gap, 1e-12);
+    }
+  });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(pressed, 0.01);
+  EXPECT_GT(least, 0.0);
+  EXPECT_LT(least, 1e-3);
+  EXPECT_NEAR(seen.back().bodies[2].position.x(), -0.2 - 0.1 * 0.3, 1e-15);
+  EXPECT_LT(seen.back().bodies[1].position.z(), 0.7);
+  const Json summary = Json::parse(scene::summary_json(run, report, {}));
+  EXPECT_EQ(summary.at("bodies"), Json({"ground", "ball", "body_2"}));
+}
+
+TEST(ContactScene, WithoutResponseABodyFallsThrough) {
+  Json json = scene();
+  json["contact"] = {{"response", "off"}};
+  scene::SceneRun run(read(json));
+  const Report report = run.run();
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_NEAR(run.snapshot().bodies[1].position.z(), 0.7 - 0.5 * 0.3 - 0.5 * 9.81 * 0.09, 1e-6);
+}
+
+std::string refusal(const Json& json) {
+  try {
+    scene::SceneRun run(read(json));
+  } catch (const InvalidInput& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+
+TEST(ContactScene, RefusesWithThePlace) {
+  const auto expect = [](const std::function<void(Json&)>& change, const std::string& place) {
+    Json json = scene();
+    change(json);
+    EXPECT_NE(refusal(json).find(place), std::string::npos) << refusal(json);
+  };
+  expect([](Json& s) { s["bodies"][1]["shape"]["type"] = "cone"; }, "#/bodies/1/shape/type");
+  expect([](Json& s) { s["bodies"][1]["shape"].erase("radius"); }, "#/bodies/1/shape");
+  expect([](Json& s) { s["bodies"][1]["shape"]["length"] = 1.0; }, "#/bodies/1/shape/length");
+  expect([](Json& s) { s["bodies"][1]["name"] = "ground"; }, "#/bodies/1");
+  expect([](Json& s) { s["bodies"][0]["free"] = {{"mass", 1.0}}; }, "#/bodies/0/free");
+  expect([](Json& s) { s["bodies"][2]["free"] = {{"mass", 1.0}}; }, "#/bodies/2/free");
+  expect([](Json& s) { s["bodies"][2]["axis"] = {0, 0, 0}; }, "#/bodies/2/axis");
+  expect([](Json& s) { s["bodies"][2]["shape"]["size"] = {1, 0, 1}; }, "#/bodies/2");
+  expect([](Json& s) { s["contact"]["range"] = 0.0; }, "#/contact/range");
+  expect([](Json& s) { s.erase("bodies"); }, "#/contact");
+  expect([](Json& s) { s.erase("forces"); }, "#/contact");
+  expect(
+      [](Json& s) {
+        s["bodies"][1]["position"] = {0.5, 0, 0.56};
+      },
+      "rod 0 begins within collider 1 (ball)");
+}
+
+}  // namespace
+}  // namespace tendril::test
