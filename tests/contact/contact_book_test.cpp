@@ -246,7 +246,7 @@ double capstan(int edges, double mu, double range) {
       std::make_shared<PointLoad>(PointLoad::Kind::force, 0, 0, Vec3(0, 0, -pull), Signal::constant(1.0))};
   const System system(scene);
   Simulation simulation(system, system.rest_state(), within(1e-5, Method::rodas));
-  const Report report = simulation.run(4.0);
+  const Report report = simulation.run(21.0);
   EXPECT_EQ(report.stop, Stop::finished) << report.reason;
   const ContactMemory& memory = memory_of(simulation.state());
   EXPECT_LT(memory.friction_work, 0.0);
@@ -261,6 +261,91 @@ TEST(ContactBook, AChainOverADrumObeysTheCapstanEquation) {
   const auto off = [](int edges) { return capstan(edges, 0.3, 1e-3) / std::exp(0.3 * kPi) - 1.0; };
   EXPECT_GE(std::log2(std::abs(off(16) / off(32))), 1.8);
   EXPECT_NEAR(off(64), 0.0, 1e-3);
+}
+
+/// P a^2 / B of a beam bent over two supports that it slides on, a apart from the load on either side, where
+/// it meets them at an angle: cos al [int_0^al cos th / sqrt(sin(al - th)) dth]^2, the root taken out.
+double three_points(double angle) {
+  const int n = 2000;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double s = (i + 0.5) * std::sqrt(angle) / n, phi = s * s;
+    sum += std::cos(angle - phi) * 2.0 / std::sqrt(std::sin(phi) / phi) * std::sqrt(angle) / n;
+  }
+  return std::cos(angle) * sum * sum;
+}
+
+/// Half of such a beam: clamped in the middle, lifted by a pin until it meets it at over 30 degrees. How far
+/// force, place and angle are off each other.
+double off_three_points(int edges, double lift) {
+  const double length = 1.4, radius = 2e-3, pin = 2e-3, gap = 5e-4;
+  Rod rod = test::straight_rod(edges, 1.0, radius);
+  for (Vec3& p : rod.p) p *= length;
+  for (Vec3& q : rod.q) q.x() *= length;
+  const double inertia = kPi * std::pow(radius, 4) / 4, bending = 1.0;
+  rod = make_rod(rod.p, rod.q, {bending / inertia, bending / inertia / 3, 1.0}, circular_section(radius));
+  Scene scene;
+  scene.rods = {rod};
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  Collider below{"pin", cylinder(pin, std::numeric_limits<double>::infinity()), {}};
+  const Mat3 across = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix();
+  below.driven = [=](double t) {
+    Placement at;
+    at.rotation = across;
+    at.position = Vec3(1.0, 0, -radius - pin - gap + lift * t);
+    return at;
+  };
+  scene.forces = {std::make_shared<RodContact>(std::vector<ContactRod>{{0, radius, rod.p}},
+                                               std::vector<Collider>{below},
+                                               Law{.stiffness = 1e6, .range = 4e-4})};
+  const System system(scene);
+  const Equilibrium found = find_equilibrium(system, system.rest_state(), {.until = 1.0});
+  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  const Vec3 push = -found.support[0], at = below.driven(1.0).position;
+  const double angle = std::atan2(std::abs(push.x()), push.z());
+  double nearest = 1e9, arm = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(edges); ++i)
+    for (int k = 0; k <= 1000; ++k) {
+      const Vec3 x = place(found.state, i) + 1e-3 * k * (place(found.state, i + 1) - place(found.state, i));
+      if ((x - at).norm() < nearest) nearest = (x - at).norm(), arm = x.x();
+    }
+  EXPECT_GT(angle, kPi / 6);
+  return 2.0 * push.z() * arm * arm / bending / three_points(angle) - 1.0;
+}
+
+TEST(ContactBook, ABeamBendsOverSupportsThatItSlidesOn) {
+  EXPECT_NEAR(three_points(kPi / 6), 1.577869, 1e-6);
+  EXPECT_NEAR(three_points(38.30121 * kPi / 180), 1.667952, 1e-6);
+  const double coarse = off_three_points(32, 0.4), fine = off_three_points(64, 0.4);
+  std::cout << "three points: " << coarse << " " << fine << "\n";
+  EXPECT_NEAR(fine, 0.0, 1e-3);
+}
+
+/// A rod on a rough floor drawn at its end by F gives way by F^2 / (2 E A mu q); the rest of it sticks.
+TEST(ContactBook, ARodDrawnOverARoughFloorGivesWayAsFarAsFrictionLets) {
+  const double mu = 0.5, weight = 4.0, pull = 1.0, tension = 100.0, radius = 0.02;
+  const auto given_way = [&](int edges) {
+    Rod rod = test::straight_rod(edges, 1.0, radius);
+    const double area = kPi * radius * radius;
+    rod =
+        make_rod(rod.p, rod.q, {tension / area, tension / area / 3, weight / area}, circular_section(radius));
+    rod.mass_damping = 20.0;
+    Law law{.stiffness = 1.0, .range = 1e-3, .friction = mu, .stick_stiffness = 1e7};
+    law.stiffness = weight / -potential({.stiffness = 1.0, .range = 1e-3}, 5e-4).slope;
+    Scene scene;
+    scene.rods = {rod};
+    scene.forces = {on_floor(rod, radius, -radius - 5e-4, law), std::make_shared<Gravity>(Vec3(0, 0, -1)),
+                    std::make_shared<PointLoad>(PointLoad::Kind::force, 0, static_cast<std::size_t>(edges),
+                                                Vec3(pull, 0, 0), Signal::table({{0.0, 0.0}, {20.0, 1.0}}))};
+    const System system(scene);
+    Simulation simulation(system, system.rest_state(), within(1e-6, Method::rodas));
+    const Report report = simulation.run(21.0);
+    EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_TRUE(memory_of(simulation.state()).contacts.front().sticks);
+    return place(simulation.state(), static_cast<std::size_t>(edges)).x() - 1.0;
+  };
+  const double exact = pull * pull / (2.0 * tension * mu * weight);
+  EXPECT_NEAR(given_way(16), exact, 1e-3 * exact);
 }
 
 }  // namespace

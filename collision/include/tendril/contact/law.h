@@ -20,7 +20,8 @@ struct Law {
   };
   Kind kind = Kind::barrier;  ///< which of them
   /// kappa [force / length per length]. A barrier stops an energy E of a length w of rod at about
-  /// d = range exp(-E / (kappa w range^2)): keep kappa w range^2 above E / 10. Positive.
+  /// d = range exp(-E / (kappa w range^2)): keep kappa w range^2 above E / 10. Where it
+  /// keeps gaps close to the range, points of a line are felt one by one. Positive.
   double stiffness = 1.0;
   /// Where the response begins [length], positive. Shapes seem larger by about half of it.
   double range = 1e-3;

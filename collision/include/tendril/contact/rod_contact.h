@@ -43,7 +43,7 @@ struct TENDRIL_CONTACT_API ContactMemory : ForceMemory {
 struct RodModel;  ///< rods and colliders, laid out in points
 
 /// Contact of rods with solids, along a line: every rod is followed by points so close that what bends
-/// outward by R enters between two of them by at most range / 8, and the gap is taken smaller by that. So no
+/// outward by R enters between two of them by at most range / 40, and the gap is taken smaller by that. So no
 /// part of a rod that is stretched by less than a quarter touches a solid while all points keep off it. The
 /// potential of a point of weight w (its share of the rod's length) is w kappa b(phi - radius).
 ///

@@ -63,6 +63,7 @@ class Search {
 
  private:
   bool start_at(State start);
+  void take(StaticState next);
   bool first();
   bool settle();
   bool go(const LoadPath& path, double begin, double part);
@@ -79,6 +80,7 @@ class Search {
   const StaticsOptions& options_;
   StaticProblem problem_;
   StaticNewton newton_;
+  System::WorkspacePtr work_ = system_.make_workspace();
   StaticState at_;
   int unstable_ = 0;  ///< directions, at the state reached
   Equilibrium out_;
@@ -102,8 +104,16 @@ void Search::stop(StaticNewton::Outcome outcome, const std::string& why) {
   stop(balance, why);
 }
 
+/// Forces remember every equilibrium on the way, as they do accepted steps: what a contact may pass, and where
+/// it sticks, is about the last one.
+void Search::take(StaticState next) {
+  at_ = std::move(next);
+  system_.remember(at_.state, *work_);
+}
+
 bool Search::start_at(State start) {
   at_.state = std::move(start);
+  system_.remember(at_.state, *work_);
   const bool bends = problem_.coordinates().energy_scale() > 0.0;
   at_.load = options_.first_load.value_or(bends ? 0.0 : options_.last_load);
   const Evaluation e = problem_.evaluate(at_);
@@ -119,7 +129,7 @@ bool Search::first() {
     stop(outcome, newton_.reason());
     return false;
   }
-  at_ = std::move(next);
+  take(std::move(next));
   ++out_.steps;
   return true;
 }
@@ -132,7 +142,7 @@ bool Search::settle() {
     stop(outcome, newton_.reason());
     return false;
   }
-  at_ = std::move(next);
+  take(std::move(next));
   return true;
 }
 
@@ -186,7 +196,7 @@ bool Search::step(const LoadPath& path, double& done, double& h) {
     why = newton_.reason();
     if (outcome == StaticNewton::Outcome::work_limit || outcome == StaticNewton::Outcome::unheld) break;
     if (outcome != StaticNewton::Outcome::found) continue;
-    at_ = std::move(next);
+    take(std::move(next));
     unstable_ = newton_.unstable();
     done = s;
     ++out_.steps;
