@@ -108,8 +108,8 @@ TEST(BodyContact, ASlidingBallComesToRoll) {
   }
 }
 
-/// Two equal balls that meet head on exchange their velocities, far from anything else; a third that they miss
-/// stays.
+/// Two equal balls that meet head on exchange their velocities, far from anything else; a third that they
+/// miss stays.
 TEST(BodyContact, BallsExchangeTheirVelocities) {
   Bodies bodies(-10.0);
   bodies.add_ball(0.1, 1.0, Vec3(-0.5, 0, 0)).velocity = Vec3(3, 0, 0);

@@ -231,8 +231,8 @@ double capstan(int edges, double mu, double range) {
   const Vec3 from = p.back();
   hand.motion = [from](double t) {
     AnchorPose pose;
-    pose.position = from + Vec3(0, 0, -0.005 * t);
-    pose.velocity = Vec3(0, 0, -0.005);
+    pose.position = from + Vec3(0, 0, -0.002 * t);
+    pose.velocity = Vec3(0, 0, -0.002);
     return pose;
   };
   scene.anchors.push_back(hand);
@@ -259,8 +259,10 @@ double capstan(int edges, double mu, double range) {
 
 TEST(ContactBook, AChainOverADrumObeysTheCapstanEquation) {
   const auto off = [](int edges) { return capstan(edges, 0.3, 1e-3) / std::exp(0.3 * kPi) - 1.0; };
-  EXPECT_GE(std::log2(std::abs(off(16) / off(32))), 1.8);
-  EXPECT_NEAR(off(64), 0.0, 1e-3);
+  const double coarse = off(16), middle = off(32), fine = off(64);
+  std::cout << "capstan, ratio off by " << coarse << ", " << middle << ", " << fine << "\n";
+  EXPECT_GE(std::log2(std::abs(coarse / middle)), 1.8);
+  EXPECT_NEAR(fine, 0.0, 1e-3);
 }
 
 /// P a^2 / B of a beam bent over two supports that it slides on, a apart from the load on either side, where

@@ -25,7 +25,8 @@ struct Placement {
   Vec3 velocity_at(const Vec3& x) const { return velocity + spin.cross(x - position); }
 };
 
-/// A solid that rods meet: fixed, driven in time, or a free rigid body of the scene, which feels what it does.
+/// A solid that rods and bodies meet: fixed, driven in time, or a free rigid body of the scene, which feels
+/// what it does.
 struct Collider {
   std::string name;     ///< for reports; may be empty
   ShapePtr shape;       ///< not null
@@ -45,8 +46,9 @@ struct Collider {
   bool moves() const { return driven || body; }  ///< or stands still for ever
 };
 
-/// InvalidInput("contact.colliders[i].field") for a shape missing, a placement that is none, what is both free
-/// and driven, and a hollow that has no room.
+/// InvalidInput("contact.colliders[i].field") for a shape missing, a placement that is none, what is both
+/// free and driven, and a hollow that has no room.
+/// \param collider  to be checked
 /// \param i         its index
 /// \param thickest  radius of a ball that has to fit in its hollow
 TENDRIL_CONTACT_API void check(const Collider& collider, std::size_t i, double thickest);

@@ -104,8 +104,8 @@ void Search::stop(StaticNewton::Outcome outcome, const std::string& why) {
   stop(balance, why);
 }
 
-/// Forces remember every equilibrium on the way, as they do accepted steps: what a contact may pass, and where
-/// it sticks, is about the last one.
+/// Forces remember every equilibrium on the way, as they do accepted steps: what a contact may pass, and
+/// where it sticks, is about the last one.
 void Search::take(StaticState next) {
   at_ = std::move(next);
   system_.remember(at_.state, *work_);
