@@ -108,7 +108,7 @@ Range read_range(const JsonNode& anchor, const Rod& rod) {
 
 }  // namespace
 
-std::function<AnchorPose(double)> read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame) {
+ReadMotion read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame) {
   if (!node.has("translation") && !node.has("rotation")) return {};
   Motion motion;
   motion.rest = motion.about = rest;
@@ -124,7 +124,7 @@ std::function<AnchorPose(double)> read_motion(const JsonNode& node, const Vec3& 
     motion.angle_wave = rotation.wave;
     motion.about = rotation.about.value_or(rest);
   }
-  return motion;
+  return {motion, motion.period()};
 }
 
 std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, const Rod& rod) {
@@ -135,27 +135,9 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
   for (std::size_t i = range.first; i <= range.last; ++i) {
     Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
     if (anchor.has("until")) one.until = anchor.at("until").number();
-<<<<<<< HEAD
-    Motion motion;
-    motion.rest = motion.about = rod.p[i];
-    motion.frame = frames.frame[i];
-    if (anchor.has("translation")) {
-      const JsonNode way = anchor.at("translation");
-      motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
-    }
-    if (rotation) {
-      motion.axis = rotation->axis;
-      motion.angle = rotation->angle;
-      motion.angle_wave = rotation->wave;
-      motion.about = rotation->about.value_or(rod.p[i]);
-    }
-    if (anchor.has("translation") || rotation) {
-      one.motion = motion;
-      one.period = motion.period();
-    }
-=======
-    one.motion = read_motion(anchor, rod.p[i], frames.frame[i]);
->>>>>>> 3b16b1d (Let free bodies meet solids, and scenes say what meets what)
+    const ReadMotion motion = read_motion(anchor, rod.p[i], frames.frame[i]);
+    one.motion = motion.pose;
+    one.period = motion.period;
     out.push_back(one);
   }
   return out;

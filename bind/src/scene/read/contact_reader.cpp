@@ -130,7 +130,7 @@ SceneBody read_body(const JsonNode& node, std::size_t index, SceneFile& out) {
   body.shape = read_shape(node.at("shape"));
   if (node.has("position")) body.pose.position = node.at("position").vec3();
   body.pose.frame = read_frame(node);
-  body.motion = read_motion(node, body.pose.position, body.pose.frame);
+  body.motion = read_motion(node, body.pose.position, body.pose.frame).pose;
   if (!node.has("free")) return body;
   if (body.motion) node.at("free").refuse("beside a motion", "one of them, not both");
   body.free = out.scene.bodies.size();
