@@ -19,33 +19,20 @@ Rod rod_between(const Vec3& from, const Vec3& to, int edges, double radius) {
                   circular_section(radius));
 }
 
-/// The stem's last node has the tangent of its last edge, which leaves out the bend of that edge's outer
-/// half. Where a moment passes through, a joint as stiff as the rod is therefore of first order; softened by
-/// that half, of second.
-enum class Head { as_the_rod, softened };
-
 /// A stem along z, clamped at its foot, and two arms along x and -x at its head; all of unit bending
 /// stiffness and line density.
 /// \param edges  of the stem, a multiple of 5
 /// \param radius  decides how much they stretch
-/// \param share  of the moment at the head to that of an arm's root: how far the softened joints give way
-Scene tee(int edges, Head joint, double share, double radius) {
+Scene tee(int edges, double radius) {
   Scene scene;
-  const double h = kStem / edges;
   scene.rods.push_back(rod_between(Vec3::Zero(), kStem * Vec3::UnitZ(), edges, radius));
   scene.anchors.push_back({0, 0, true, true, {}});
   for (const double side : {1.0, -1.0}) {
     const Vec3 head = scene.rods[0].p.back();
-    Rod arm = rod_between(head, head + side * kArm * Vec3::UnitX(), edges * 3 / 5, radius);
-    if (joint == Head::softened) arm.bend_l[0] = arm.bend_m[0] = 2 / (h + share * h);
     scene.joints.push_back({0, static_cast<std::size_t>(edges), scene.rods.size(), true});
-    scene.rods.push_back(std::move(arm));
+    scene.rods.push_back(rod_between(head, head + side * kArm * Vec3::UnitX(), edges * 3 / 5, radius));
   }
   return scene;
-}
-
-const char* words(Head joint) {
-  return joint == Head::softened ? "softened joint" : "plain joint";
 }
 
 std::vector<std::pair<double, double>> outline(const System& system, const State& state) {
@@ -70,30 +57,25 @@ Case bent_tee() {
       turn * kStem * head / turn + Vec3(std::sin(far) - std::sin(turn), 0, std::cos(far) - std::cos(turn));
   const Vec3 tips[] = {loaded / turn, head / turn - kArm * Vec3(std::cos(turn), 0, -std::sin(turn))};
   Figure figure{"T of 20 edges a stem", "x", "z", {}, true};
-  for (const Head joint : {Head::softened, Head::as_the_rod}) {
-    Quantity ends[] = {
-        {std::string("loaded arm's tip, ") + words(joint), tips[0].z(), "of the stem's length"},
-        {std::string("free arm's tip, ") + words(joint), tips[1].z(), "of the stem's length"}};
-    for (const int edges : {10, 20, 40}) {
-      Scene scene = tee(edges, joint, 1.0, 0.05);
-      const std::size_t last = scene.rods[1].p.size() - 1;
-      scene.forces.push_back(std::make_shared<PointLoad>(PointLoad::Kind::torque, 1, last, Vec3(0, turn, 0),
-                                                         Signal::constant(1.0)));
-      const System system(scene);
-      const Equilibrium found = test::balanced(system);
-      for (std::size_t arm = 0; arm < 2; ++arm) {
-        const Vec3 tip = test::at(found.state.y, system.rods()[arm + 1].first + last);
-        ends[arm].rows.push_back({edges, tip.z(), (tip - tips[arm]).norm()});
-      }
-      if (edges == 20 && joint == Head::softened)
-        figure.curves.push_back({"computed", outline(system, found.state), Curve::Kind::marks});
+  Quantity ends[] = {{"loaded arm's tip", tips[0].z(), "of the stem's length"},
+                     {"free arm's tip", tips[1].z(), "of the stem's length"}};
+  for (const int edges : {10, 20, 40}) {
+    Scene scene = tee(edges, 0.01);
+    const std::size_t last = scene.rods[1].p.size() - 1;
+    scene.forces.push_back(std::make_shared<PointLoad>(PointLoad::Kind::torque, 1, last, Vec3(0, turn, 0),
+                                                       Signal::constant(1.0)));
+    const System system(scene);
+    const Equilibrium found = test::balanced(system);
+    for (std::size_t arm = 0; arm < 2; ++arm) {
+      const Vec3 tip = test::at(found.state.y, system.rods()[arm + 1].first + last);
+      ends[arm].rows.push_back({edges, tip.z(), (tip - tips[arm]).norm()});
     }
-    const bool second = joint == Head::softened;
-    ends[0].order = Order{second ? 2.0 : 1.0, 0.1, 20};
-    ends[1].order = Order{1.0, 0.1, 20};  // no moment softens the free arm's joint
-    ends[0].limits.push_back({40, second ? 1e-3 : 2e-2});
-    ends[1].limits.push_back({40, 2e-2});
-    out.quantities.insert(out.quantities.end(), ends, ends + 2);
+    if (edges == 20) figure.curves.push_back({"computed", outline(system, found.state), Curve::Kind::marks});
+  }
+  for (Quantity& end : ends) {
+    end.order = Order{2.0, 0.1, 20};
+    end.limits.push_back({40, 1e-4});
+    out.quantities.push_back(end);
   }
   figure.curves.push_back(
       {"closed form, tips and head",
@@ -168,26 +150,20 @@ Case swinging_tee() {
       "arms)",
       "", "edges of the stem"};
   const std::vector<double> roots = swinging_roots(3);
-  for (const Head joint : {Head::softened, Head::as_the_rod}) {
-    std::vector<Quantity> all{
-        {std::string("arms together, ") + words(joint), std::pow(1.875104069 / kArm, 2), "relative"}};
-    for (const double root : roots)
-      all.push_back({"arms against each other " + std::to_string(all.size()) + ", " + words(joint),
-                     root * root, "relative"});
-    for (const int edges : {20, 40, 80}) {
-      const Sorted found = swings_of(System(tee(edges, joint, 2.0, 1e-3)));
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const double value = k == 0 ? found.together[0] : found.against[k - 1];
-        all[k].rows.push_back({edges, value, value / all[k].reference - 1});
-      }
+  std::vector<Quantity> all{{"arms together", std::pow(1.875104069 / kArm, 2), "relative"}};
+  for (const double root : roots)
+    all.push_back({"arms against each other " + std::to_string(all.size()), root * root, "relative"});
+  for (const int edges : {20, 40, 80}) {
+    const Sorted found = swings_of(System(tee(edges, 1e-3)));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double value = k == 0 ? found.together[0] : found.against[k - 1];
+      all[k].rows.push_back({edges, value, value / all[k].reference - 1});
     }
-    // With the arms together no moment passes through the head: there the joints are as stiff as the rods.
-    for (std::size_t k = joint == Head::softened ? 1 : 0; k < all.size(); ++k) {
-      const bool second = joint == Head::softened || k == 0;
-      if (second) all[k].order = Order{2.0, 0.15, 40};
-      all[k].limits.push_back({40, second ? 1e-2 : 5e-2});
-      out.quantities.push_back(all[k]);
-    }
+  }
+  for (Quantity& one : all) {
+    one.order = Order{2.0, 0.15, 40};
+    one.limits.push_back({40, 1e-2});
+    out.quantities.push_back(one);
   }
   return out;
 }

@@ -93,8 +93,25 @@ inline State stirred(const System& system, Random& random, double by) {
   return state;
 }
 
-/// Linear and angular momentum, sum m v and sum p x m v + I w t; a joined root has no spin inertia of its
-/// own.
+/// Spin inertias per node, with those that joined roots pass on: what turns about their parent's node's
+/// tangent. Joints stand parents first.
+inline std::vector<double> spin_inertias(const System& system) {
+  const Scene& scene = system.scene();
+  std::vector<double> inertia;
+  for (const Rod& rod : scene.rods) inertia.insert(inertia.end(), rod.inertia.begin(), rod.inertia.end());
+  for (auto joint = scene.joints.rbegin(); joint != scene.joints.rend(); ++joint) {
+    const Rod &parent = scene.rods[joint->parent], &child = scene.rods[joint->child];
+    const double along =
+        node_frames(parent.p, parent.q).frame[joint->node].z.dot(node_frames(child.p, child.q).frame[0].z);
+    if (joint->reaction)
+      inertia[system.rods()[joint->parent].first + joint->node] +=
+          along * along * inertia[system.rods()[joint->child].first];
+  }
+  return inertia;
+}
+
+/// Linear and angular momentum, sum m v and sum p x m v + I w t; joined roots have passed on their spin
+/// inertia.
 struct Momentum {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
@@ -105,6 +122,7 @@ inline Momentum momentum(const System& system, const State& state) {
   const auto m = static_cast<Eigen::Index>(system.twist_count());
   std::vector<bool> rides(system.rods().size(), false);
   for (const Joint& joint : system.scene().joints) rides[joint.child] = true;
+  const std::vector<double> inertia = spin_inertias(system);
   Momentum sum;
   std::size_t node = 0;
   for (std::size_t r = 0; r < system.rods().size(); ++r) {
@@ -115,7 +133,7 @@ inline Momentum momentum(const System& system, const State& state) {
       sum.linear += mv;
       sum.angular += at(state.y, node).cross(mv);
       if (m == n && !(i == 0 && rides[r]))
-        sum.angular += rod.inertia[i] * state.y[6 * n + m + k] * frames[node].z;
+        sum.angular += inertia[node] * state.y[6 * n + m + k] * frames[node].z;
     }
   }
   return sum;

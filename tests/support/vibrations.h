@@ -21,11 +21,12 @@ struct Vibrations {
 inline Eigen::VectorXd masses(const System& system) {
   const auto n = static_cast<Eigen::Index>(system.node_count());
   Eigen::VectorXd out = Eigen::VectorXd::Zero(3 * n + static_cast<Eigen::Index>(system.twist_count()));
+  const std::vector<double> inertia = spin_inertias(system);
   for (std::size_t r = 0; r < system.rods().size(); ++r)
     for (std::size_t i = 0; i < system.rods()[r].count; ++i) {
       const auto node = static_cast<Eigen::Index>(system.rods()[r].first + i);
       out.segment<3>(3 * node).setConstant(system.scene().rods[r].mass[i]);
-      if (system.twist_count() > 0) out[3 * n + node] = system.scene().rods[r].inertia[i];
+      if (system.twist_count() > 0) out[3 * n + node] = inertia[system.rods()[r].first + i];
     }
   for (const Joint& joint : system.scene().joints) {
     const auto at = static_cast<Eigen::Index>(system.rods()[joint.parent].first + joint.node);

@@ -48,6 +48,15 @@ NodePairs coupled_by_springs(const Model& model) {
       for (std::size_t i = rod.first + 1; i <= std::min(rod.first + 2, rod.first + rod.count - 1); ++i)
         pairs.emplace_back(model.carrier[j], i);
   }
+  // All children of a node that turns with them.
+  const auto last = [&](const Model::Hub::Child& child) {
+    return child.root + std::min<std::size_t>(2, model.rods[child.rod].count - 1);
+  };
+  for (const Model::Hub& hub : model.hubs)
+    for (const Model::Hub::Child& one : hub.children)
+      for (const Model::Hub::Child& other : hub.children)
+        for (std::size_t i = one.root + 1; one.root < other.root && i <= last(one); ++i)
+          for (std::size_t j = other.root + 1; j <= last(other); ++j) pairs.emplace_back(i, j);
   return pairs;
 }
 

@@ -10,7 +10,8 @@ namespace tendril {
 using NodePairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// Pairs of nodes that springs couple: with twist up to the third neighbour, without (a hinge) up to the
-/// second; the first edge of a child sees its parent's frame. Under the nodes that carry them.
+/// second; the first edge of a child sees its parent's frame, and at a hub that of all children. Under the
+/// nodes that carry them.
 NodePairs coupled_by_springs(const Model& model);
 
 /// Pairs of nodes that a force couples in the equations, under the nodes that carry them.

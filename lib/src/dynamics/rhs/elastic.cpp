@@ -353,6 +353,7 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, cons
       return at;
   }
   clear_ends(model, grad);
+  give_way_at_hubs(model, reference, inner.viscous, kin, grad);
   for (const Segment& s : model.segments) {
     if (inner.viscous && s.viscous) heat += resist_stretch(model, s, kin, grad) + sum_of(grad.heat, s);
     if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, kin, grad);
@@ -371,7 +372,7 @@ Evaluation elastic_energy(const Model& model, const State& reference, const Kine
       return at;
   }
   clear_ends(model, grad);
-  energy = 0.0;
+  energy = give_way_at_hubs(model, reference, false, kin, grad);
   for (const Segment& s : model.segments) {
     energy += sum_of(grad.energy, s);
     if (s.twist) gather_springs(model, s, kin, grad);

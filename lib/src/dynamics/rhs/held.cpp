@@ -23,7 +23,8 @@ struct Held {
 };
 
 /// The springs of the edge at `side` of a held node (0 before, 1 after).
-Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinematics& kin) {
+Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinematics& kin,
+              const Gradient& grad) {
   const std::size_t i = at.node;
   const std::size_t edge = i + side - 1;
   const std::size_t end = 2 * edge + 1 - side;
@@ -36,6 +37,9 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinema
   double fm = model.bend_m[i] * m;
   Given given;
   given.energy = 0.5 * (fl * l + fm * m);
+  const Vec3 way = grad.given[i];
+  fl -= (model.bend_l[i] + model.bend_t[i]) * way.x();
+  fm -= (model.bend_m[i] + model.bend_t[i]) * way.y();
   if (at.viscous) {
     const double viscosity = model.viscosity[edge];
     const DeviationRates rate = deviation_rates(f, by, kin.rate.e_rate[edge], at.t_rate, at.spin);
@@ -91,7 +95,7 @@ double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, co
   const Held at{node, kin.frame[node], viscous ? kin.t_rate(node) : Vec3(Vec3::Zero()),
                 viscous ? kin.spin[node] : 0.0, viscous};
   const auto pull = [&](std::size_t side, Columns3& to) {
-    const Given given = pull_at(model, at, side, kin);
+    const Given given = pull_at(model, at, side, kin, grad);
     to.set(node, given.edge);
     grad.tangent.add(node, given.tangent);
     grad.spin[node] += given.spin;
@@ -120,6 +124,41 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
   if (model.has_before(node)) grad.before.set(node, spring(kin.e[node - 1]));
   if (model.has_after(node)) grad.after.set(node, spring(kin.e[node]));
   grad.tangent.set(node, g_tangent);
+  return energy;
+}
+
+double twist_strain(const Model& model, const State& reference, std::size_t i, const Kinematics& kin) {
+  const double raw = twist_angle(kin.frame[i], kin.frame[i + 1]);
+  return reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI) - model.rest_twist[i];
+}
+
+double give_way_at_hubs(const Model& model, const State& reference, bool viscous, const Kinematics& kin,
+                        Gradient& grad) {
+  const auto strain = [&](std::size_t i) {
+    if (viscous && model.viscosity[i] > 0.0) return twist_strain(model, reference, i, kin);
+    return model.twist[i] > 0.0 ? grad.twist_torque[i] / model.twist[i] : 0.0;
+  };
+  double energy = 0.0;
+  for (const Model::Hub& hub : model.hubs) {
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    for (const Model::Hub::Child& child : hub.children) {
+      const std::size_t i = child.root;
+      const EdgeAngles at = edge_angles(kin.e[i], kin.frame[i]);
+      moment += child.moment * Vec3(at.l, at.m, strain(i));
+    }
+    const Eigen::Vector2d omega = hub.give * moment;
+    energy -= 0.5 * moment.dot(omega);
+    for (const Model::Hub::Child& child : hub.children) {
+      const std::size_t i = child.root;
+      const Vec3 way = child.turn * omega;
+      grad.given.set(i, way);
+      const double torque = model.twist[i] * way.z();
+      const Vec3 ta = kin.frame.z[i];
+      const Vec3 tb = kin.frame.z[i + 1];
+      grad.twist_torque[i] -= torque;
+      grad.twist_tangent.add(i, -torque / (1.0 + ta.dot(tb)) * ta.cross(tb));
+    }
+  }
   return energy;
 }
 

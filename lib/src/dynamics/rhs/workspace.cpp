@@ -13,8 +13,9 @@ System::Workspace::Workspace(const System::Model& model) {
   loads.on_bodies.resize(model.bodies.size());
   // Columns that a loop walks along side by side get neighbouring ranks.
   std::size_t rank = 0;
-  for (auto* vectors : {&k.p, &k.v, &k.frame.y, &k.frame.z, &k.e, &k.rate.e_rate, &k.rate.turning, &g.bend,
-                        &g.before, &g.after, &g.tangent, &g.twist_tangent, &pull.edge_force, &pull.force})
+  for (auto* vectors :
+       {&k.p, &k.v, &k.frame.y, &k.frame.z, &k.e, &k.rate.e_rate, &k.rate.turning, &g.bend, &g.before,
+        &g.after, &g.tangent, &g.twist_tangent, &pull.edge_force, &pull.force, &g.given})
     *vectors = Columns3(n, std::exchange(rank, rank + 3));
   for (auto* numbers : {&k.length, &k.inverse_length, &k.rate.length_rate, &k.inverse_bisector, &k.spin,
                         &k.rate.connection, &g.spin, &g.length, &g.twist_torque, &g.energy, &g.heat})

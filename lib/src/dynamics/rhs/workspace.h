@@ -60,6 +60,7 @@ struct Gradient {
   Column spin, length;
   Columns3 twist_tangent;  ///< per edge: what its twist spring gives either tangent
   Column twist_torque;     ///< per edge
+  Columns3 given;          ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
   Column energy, heat;     ///< per edge or node, of one kind of springs at a time
   Made made;
 };

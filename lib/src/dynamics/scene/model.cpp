@@ -86,6 +86,7 @@ Model::Model(Scene description, double since) : scene(std::move(description)), f
   choose_twist();
   choose_forces();
   lay_out_springs();
+  add_hubs();
 }
 
 void Model::flatten(const Rod& rod) {
@@ -205,9 +206,14 @@ void Model::sort_rods() {
     carrier[ride.root] = carrier[ride.parent];
     feels[ride.root] = feels[ride.parent] != 0 && ride.reaction;
   }
-  // From the leaves up: a root's mass goes to its parent's node, also where that is itself a root.
-  for (auto ride = rides.rbegin(); ride != rides.rend(); ++ride)
-    if (ride->reaction) moved_mass[ride->parent] += moved_mass[ride->root];
+  // From the leaves up: a root's mass goes to its parent's node, also where that is itself a root, and of its
+  // spin inertia what turns about that node's tangent.
+  for (auto ride = rides.rbegin(); ride != rides.rend(); ++ride) {
+    if (!ride->reaction) continue;
+    const double along = ride->rest.z.z();
+    moved_mass[ride->parent] += moved_mass[ride->root];
+    inertia[ride->parent] += along * along * inertia[ride->root];
+  }
 }
 
 std::string Model::twist_source(std::size_t r) const {

@@ -53,6 +53,21 @@ struct System::Model {
   };
   std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
   std::vector<Ride> rides;      ///< parents before their children
+  /// A node at which rods are joined, whose half edges bend as those of one rod do. Its tangent halves the
+  /// angle between the rod's own two edges; in truth it turns on by omega, across the tangent, until the
+  /// moments of all rods there are in balance: omega = give T, T the moment of the children's first springs.
+  struct Hub {
+    std::size_t node;  ///< that carries the roots
+    /// A child's root. Of its first edge against the frame: the turns towards l and m, and the twist.
+    struct Child {
+      std::size_t root, rod;
+      Eigen::Matrix<double, 2, 3> moment;  ///< T by (l, m, twist)
+      Eigen::Matrix<double, 3, 2> turn;    ///< (l, m, twist) by omega
+    };
+    std::vector<Child> children;
+    Eigen::Matrix2d give;  ///< omega by T: the inverse of all springs there
+  };
+  std::vector<Hub> hubs;
   /// Per node: the node that its place and frame move with (itself where it rides on none), and whether that
   /// one feels it. Then the same for the places and turns of the bodies, which ride on nothing.
   std::vector<std::size_t> carrier;
@@ -144,6 +159,8 @@ struct System::Model {
   Couplings couplings_of(std::size_t force) const;
   void lay_out_springs();
   void lay_out_bending(std::size_t node);
+  void add_hubs();
+  Hub empty_hub(std::size_t node) const;
   std::string twist_source(std::size_t rod) const;
 };
 

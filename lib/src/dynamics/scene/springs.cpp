@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "dynamics/vector/lanes.h"
 #include "model.h"
@@ -8,7 +9,9 @@ namespace tendril {
 namespace {
 
 constexpr std::size_t kSpringRank = 65;  // of the first column, behind those of the model's nodes
-constexpr double kStraight = 1e-9;       // rest angle below which a node counts as straight [rad]
+// Of a node whose half edges bend: each child's springs there are coupled with all others'.
+constexpr std::size_t kMostChildren = 16;
+constexpr double kStraight = 1e-9;  // rest angle below which a node counts as straight [rad]
 
 }  // namespace
 
@@ -63,6 +66,44 @@ void Model::flatten_rest_angles(const NodeRange& range) {
       rest_t[2 * i + side] = a.t;
     }
   }
+}
+
+/// With the springs of the node's own edges alone: about l they turn towards m, and the other way round.
+Model::Hub Model::empty_hub(std::size_t node) const {
+  const double edges = has_before(node) && has_after(node) ? 2.0 : 1.0;
+  Hub hub{node, {}, Eigen::Matrix2d::Zero()};
+  hub.give.diagonal() << edges * (bend_m[node] + bend_t[node]), edges * (bend_l[node] + bend_t[node]);
+  return hub;
+}
+
+/// Not where a frame is held, nor where the own edges do not bend: there nothing gives way.
+void Model::add_hubs() {
+  const std::vector<std::size_t> rod_of = rods_of_nodes();
+  std::vector<Mat3> rest(nodes, Mat3::Identity());  // of roots, in the frames of the nodes that carry them
+  std::vector<std::size_t> hub_of(nodes, nodes);
+  for (const Ride& ride : rides) {
+    const std::size_t i = ride.root;
+    const std::size_t at = carrier[i];
+    Mat3 own;
+    own << ride.rest.x, ride.rest.y, ride.rest.z;
+    rest[i] = rest[ride.parent] * own;
+    const bool bends = std::min(bend_l[at], bend_m[at]) + bend_t[at] > 0.0;
+    if (!bends || holds_frame(at) || feels[i] == 0) continue;
+    if (hub_of[at] == nodes) {
+      hub_of[at] = hubs.size();
+      hubs.push_back(empty_hub(at));
+    }
+    // Turns towards l and m are those about m and -l, the twist that about t.
+    Mat3 turns;
+    turns << rest[i].col(1), -rest[i].col(0), rest[i].col(2);
+    const Eigen::Matrix<double, 3, 2> turn = turns.transpose().leftCols<2>();
+    const Vec3 springs(bend_l[i] + bend_t[i], bend_m[i] + bend_t[i], twist[i]);
+    Hub& hub = hubs[hub_of[at]];
+    hub.children.push_back({i, rod_of[i], turn.transpose() * springs.asDiagonal(), turn});
+    hub.give += hub.children.back().moment * turn;
+  }
+  std::erase_if(hubs, [](const Hub& hub) { return hub.children.size() > kMostChildren; });
+  for (Hub& hub : hubs) hub.give = hub.give.inverse().eval();
 }
 
 void Model::lay_out_springs() {

@@ -176,7 +176,7 @@ void to_nodes(const Neighbourhood& n, const Kinematics& kin, const ByEdges& b, c
 void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
                     const Kinematics& kin, const Gradient& grad, bool viscous, EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
-  SpringStiffness springs = spring_stiffness(model, i, reference, kin, viscous);
+  SpringStiffness springs = spring_stiffness(model, i, reference, kin, grad, viscous);
   const Vec3 g_edge = gradient_by_edge(i, kin, grad, springs);
   if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
   ByEdges edges = by_edges(n, kin, springs);
@@ -273,6 +273,24 @@ void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const 
       const Vec3 along = kin.inverse_length[n.edge[x]] * (g - e.dot(g) * e);
       to.node[q][n.from(x)] -= along;
       to.node[q][n.to(x)] += along;
+    }
+  }
+}
+
+void hub_slopes(const Model& model, const Model::Hub::Child& child, const State& reference,
+                const Kinematics& kin, HubSlopes& to) {
+  const NodeRange& rod = model.rods[child.rod];
+  EdgeSlopes slopes;
+  edge_slopes(model, rod, child.root, reference, kin, slopes);
+  place(model, Neighbourhood(model, rod, child.root), child.root, to.place);
+  constexpr std::size_t kSpring[] = {0, 1, 4};  // towards l and m at the first node, and the twist
+  for (std::size_t row = 0; row < 2; ++row) {
+    for (Vec3& g : to.node[row]) g.setZero();
+    to.angle[row][0] = to.angle[row][1] = 0.0;
+    for (std::size_t q = 0; q < 3; ++q) {
+      const double k = child.moment(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(q));
+      for (std::size_t a = 0; a < 5; ++a) to.node[row][a] += k * slopes.node[kSpring[q]][a];
+      for (std::size_t a = 0; a < 2; ++a) to.angle[row][a] += k * slopes.angle[kSpring[q]][a];
     }
   }
 }

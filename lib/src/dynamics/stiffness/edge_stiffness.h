@@ -52,6 +52,15 @@ struct EdgeSlopes {
 void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
                  const Kinematics& kin, EdgeSlopes& to);
 
+/// Gradient of the moment T at a hub by what the first edge of one of its children sees.
+struct HubSlopes {
+  EdgeStiffness place;  ///< only where its rows and columns stand
+  Vec3 node[2][5];
+  double angle[2][2];
+};
+void hub_slopes(const Model& model, const Model::Hub::Child& child, const State& reference,
+                const Kinematics& kin, HubSlopes& to);
+
 /// How the directions of edge i's viscous bending and twist turn: sum k grad q (d grad q / dt)^T, q' being
 /// grad q . x' and so its derivative by x the rate of grad q. Rows by columns, not symmetric.
 struct TurnedResistance {

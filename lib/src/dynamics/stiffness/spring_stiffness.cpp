@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/rhs/held.h"
 #include "dynamics/vector/lanes.h"
 
 namespace tendril {
@@ -106,7 +107,7 @@ void add_third(const Vec3& e, const Vec3& t, std::size_t side, double stiffness,
 }
 
 void add_bending(const Model& model, std::size_t i, std::size_t side, double viscosity, const Kinematics& kin,
-                 SpringStiffness& s) {
+                 const Gradient& grad, SpringStiffness& s) {
   const std::size_t node = i + side;
   const std::size_t end = 2 * i + side;
   const Vec3 e = kin.e[i];
@@ -122,9 +123,12 @@ void add_bending(const Model& model, std::size_t i, std::size_t side, double vis
   const Deviations by = deviations(a);
   const double kl = model.bend_l[node];
   const double km = model.bend_m[node];
-  add_all(f, e, a, side, kl * l * by.l.slope + km * m * by.m.slope,
-          kl * (by.l.slope * by.l.slope.transpose() + l * by.l.curvature) +
-              km * (by.m.slope * by.m.slope.transpose() + m * by.m.curvature),
+  const Vec3 way = side == 0 ? Vec3(grad.given[node]) : Vec3(Vec3::Zero());
+  const double fl = kl * l - (kl + model.bend_t[node]) * way.x();
+  const double fm = km * m - (km + model.bend_t[node]) * way.y();
+  add_all(f, e, a, side, fl * by.l.slope + fm * by.m.slope,
+          kl * by.l.slope * by.l.slope.transpose() + km * by.m.slope * by.m.slope.transpose() +
+              fl * by.l.curvature + fm * by.m.curvature,
           s);
   if (model.bend_t[node] > 0.0)
     add_third(e, f.z, side, model.bend_t[node], a.t, model.rest_t[end], a.st, a.z, s);
@@ -182,13 +186,11 @@ Mat3 curvature_of_unit(const Vec3& n, double inverse_length, const Vec3& g) {
 }
 
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const Kinematics& kin, bool viscous) {
+                                 const Kinematics& kin, const Gradient& grad, bool viscous) {
   SpringStiffness s;
   const double viscosity = viscous ? model.viscosity[i] : 0.0;
-  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, viscosity, kin, s);
-  const double raw = twist_angle(kin.frame[i], kin.frame[i + 1]);
-  const double tau = reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI);
-  double strain = tau - model.rest_twist[i];
+  for (std::size_t side = 0; side < 2; ++side) add_bending(model, i, side, viscosity, kin, grad, s);
+  double strain = twist_strain(model, reference, i, kin) - grad.given[i].z();
   if (viscosity > 0.0) {
     const Vec3 ta = kin.frame.z[i];
     const Vec3 tb = kin.frame.z[i + 1];

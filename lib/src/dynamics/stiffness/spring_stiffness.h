@@ -24,9 +24,10 @@ struct SpringStiffness {
 };
 
 /// Second derivatives of the energy of edge i; needs its kinematics.
+/// \param grad     says what hubs give way
 /// \param viscous  each slope is that of strain + beta strain', as the forces are, which needs the rates
 SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const Kinematics& kin, bool viscous);
+                                 const Kinematics& kin, const Gradient& grad, bool viscous);
 
 /// sum k grad q grad q^T over the two deviations at either end and the twist of edge i.
 SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinematics& kin);

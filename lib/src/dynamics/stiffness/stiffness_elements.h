@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "edge_stiffness.h"
 
 namespace tendril {
@@ -70,6 +72,50 @@ void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sin
   sink.block(i + 1, i - 1, Mat3(-scale * h.mixed.transpose()));
 }
 
+/// What the turn of a hub takes off the stiffness, by the rows of one of its children and the columns of
+/// another: -dT^T give dT.
+template <class Sink>
+void visit_hub(const Eigen::Matrix2d& give, const HubSlopes& rows, const HubSlopes& columns, double scale,
+               Sink& sink) {
+  const EdgeStiffness &to = rows.place, &from = columns.place;
+  const double g[2][2] = {{-scale * give(0, 0), -scale * give(0, 1)},
+                          {-scale * give(1, 0), -scale * give(1, 1)}};
+  for (std::size_t b = 0; b < 5; ++b) {
+    if (from.node[b] == EdgeStiffness::kNone) continue;
+    const Vec3 x = g[0][0] * columns.node[0][b] + g[0][1] * columns.node[1][b];
+    const Vec3 y = g[1][0] * columns.node[0][b] + g[1][1] * columns.node[1][b];
+    for (std::size_t a = 0; a < 5; ++a)
+      if (to.node[a] != EdgeStiffness::kNone && to.node_feels[a])
+        sink.block(to.node[a], from.node[b],
+                   Mat3(rows.node[0][a] * x.transpose() + rows.node[1][a] * y.transpose()));
+    for (std::size_t a = 0; a < 2; ++a)
+      if (to.angle_feels[a])
+        sink.row(to.angle[a], from.node[b], Vec3(rows.angle[0][a] * x + rows.angle[1][a] * y));
+  }
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double x = g[0][0] * columns.angle[0][b] + g[0][1] * columns.angle[1][b];
+    const double y = g[1][0] * columns.angle[0][b] + g[1][1] * columns.angle[1][b];
+    for (std::size_t a = 0; a < 5; ++a)
+      if (to.node[a] != EdgeStiffness::kNone && to.node_feels[a])
+        sink.column(to.node[a], from.angle[b], Vec3(x * rows.node[0][a] + y * rows.node[1][a]));
+    for (std::size_t a = 0; a < 2; ++a)
+      if (to.angle_feels[a])
+        sink.angles(to.angle[a], from.angle[b], rows.angle[0][a] * x + rows.angle[1][a] * y);
+  }
+}
+
+template <class Sink>
+void visit_hubs(const Model& model, const State& reference, const Kinematics& kin, double scale, Sink& sink) {
+  std::vector<HubSlopes> slopes;
+  for (const Model::Hub& hub : model.hubs) {
+    slopes.resize(hub.children.size());
+    for (std::size_t c = 0; c < slopes.size(); ++c)
+      hub_slopes(model, hub.children[c], reference, kin, slopes[c]);
+    for (const HubSlopes& rows : slopes)
+      for (const HubSlopes& columns : slopes) visit_hub(hub.give, rows, columns, scale, sink);
+  }
+}
+
 /// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
 template <class Sink>
 void visit_stiffness(const Model& model, const State& reference, const Kinematics& kin, const Gradient& grad,
@@ -86,6 +132,7 @@ void visit_stiffness(const Model& model, const State& reference, const Kinematic
       visit_edge(i, stretch_stiffness(model, i, kin), scale, sink);
       if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, kin), scale, sink);
     }
+  visit_hubs(model, reference, kin, scale, sink);
   for (const std::size_t node : model.bending.held_hinges) {
     if (model.has_before(node))
       visit_edge(node - 1, held_hinge_stiffness(model, node, node - 1, kin), scale, sink);
