@@ -1,0 +1,233 @@
+/// Random scenes by the automatic choice, held to references that two methods certify: how many successes are
+/// off by more than 10 and 100 tolerances, and what is refused, with its reason.
+///
+///     honesty_sweep [--seed S] [--count N] [--tolerance T] [--effort EVALUATIONS]
+///
+/// Chains of 2 to 10 edges and trees of three rods; hinged, clamped, free and spun, or let go on the way; E
+/// from 1e4 to 1e12; undamped, damped or viscous; 0.1 to 100 s, as far as the effort of a reference goes. A
+/// reference is RODAS at a ten-thousandth of the tolerance; Runge-Kutta 4 at steps of one radian of the
+/// fastest motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not
+/// count.
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/simulation.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "support/rods.h"
+
+namespace tendril {
+namespace {
+
+struct Options {
+  unsigned long seed = 1;
+  int count = 300;
+  double tolerance = 1e-3;
+  double effort = 4e6;
+};
+
+struct Case {
+  std::string words;
+  Scene scene;
+  Vec3 spin = Vec3::Zero();
+  double duration = 1.0;
+};
+
+template <class... Parts>
+std::string words(const char* format, Parts... parts) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, parts...);
+  return text;
+}
+
+double log_uniform(test::Random& random, double low, double high) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
+bool chance(test::Random& random, double share) {
+  return random.uniform(0.0, 1.0) < share;
+}
+
+Rod rod_along(const Vec3& from, const Vec3& way, int edges, const Material& material, double radius) {
+  std::vector<Vec3> p;
+  for (int i = 0; i <= edges; ++i) p.push_back(from + way * i / edges);
+  return make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), material, circular_section(radius));
+}
+
+/// Two branches on a stem.
+void branch(test::Random& random, Case& one, const Material& material, double radius) {
+  const std::size_t last = one.scene.rods[0].p.size() - 1;
+  for (const std::size_t node : {last / 2, last}) {
+    const double along = random.uniform(0.2, 0.5);
+    const double across = random.uniform(0.1, 0.4) * (node == last ? 1 : -1);
+    const Vec3 way(along, across, 0.0);
+    one.scene.rods.push_back(rod_along(one.scene.rods[0].p[node], way, 3, material, 0.7 * radius));
+    one.scene.joints.push_back({.parent = 0, .node = node, .child = one.scene.rods.size() - 1});
+  }
+}
+
+void hold(test::Random& random, Case& one) {
+  const double kind = random.uniform(0.0, 1.0);
+  if (kind < 0.2) {
+    one.spin.y() = random.uniform(-1, 1);
+    one.spin.z() = random.uniform(1, 8);
+    one.words += ", free";
+    return;
+  }
+  const bool clamped = kind > 0.6;
+  one.words += clamped ? ", clamped" : ", hinged";
+  one.scene.anchors.push_back({.rod = 0, .node = 0, .holds_frame = clamped});
+  if (!chance(random, 0.2)) return;
+  one.scene.anchors[0].until = random.uniform(0.2, 0.7) * one.duration;
+  one.words += ", let go";
+}
+
+void damp(test::Random& random, Case& one) {
+  const double kind = random.uniform(0.0, 1.0);
+  const double damping = kind < 0.5 ? 0.0 : kind < 0.75 ? log_uniform(random, 0.01, 2.0) : 0.0;
+  const double viscosity = kind < 0.75 ? 0.0 : log_uniform(random, 1e-6, 1e-2);
+  for (Rod& rod : one.scene.rods) rod.mass_damping = damping, rod.viscosity = viscosity;
+  if (damping > 0.0) one.words += words(", damped %.2g", damping);
+  if (viscosity > 0.0) one.words += words(", viscous %.1e", viscosity);
+}
+
+/// Of Runge-Kutta 4: a radian of the fastest motion, or within what decays fastest.
+double other_step(const Case& one, double frequency) {
+  double decay = 0.0;
+  for (const Rod& rod : one.scene.rods)
+    decay = std::max(decay, rod.mass_damping + rod.viscosity * frequency * frequency);
+  return std::min(0.9 / frequency, 2.0 / std::max(decay, 1e-9));
+}
+
+Case make_case(test::Random& random, double effort) {
+  Case one;
+  const double young = log_uniform(random, 1e4, 1e12), radius = log_uniform(random, 2e-3, 3e-2);
+  const Material material{young, young / 2.6, log_uniform(random, 500, 8000)};
+  const int edges = static_cast<int>(random.uniform(2, 11));
+  one.scene.rods.push_back(rod_along(Vec3::Zero(), Vec3::UnitX(), edges, material, radius));
+  const bool tree = chance(random, 0.3) && edges > 3;
+  if (tree) branch(random, one, material, radius);
+  one.words = words("%s of %d edges, E %.0e, r %.0e", tree ? "tree" : "chain", edges, young, radius);
+  one.scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, -9.81, 0)));
+  damp(random, one);
+  const System system(one.scene);
+  const double w = system.largest_frequency(system.rest_state(), 16, *system.make_workspace());
+  one.duration = std::min(log_uniform(random, 0.1, 100.0), effort * other_step(one, w) / 4.0);
+  hold(random, one);
+  one.words += words(", %.3g s", one.duration);
+  return one;
+}
+
+State start_of(const Case& one, const System& system) {
+  State state = system.rest_state();
+  const auto n = static_cast<Eigen::Index>(system.node_count());
+  for (Eigen::Index i = 0; i < n; ++i)
+    state.y.segment<3>(3 * n + 3 * i) = one.spin.cross(Vec3(state.y.segment<3>(3 * i)));
+  return state;
+}
+
+struct End {
+  Report report;
+  Eigen::VectorXd p;
+};
+
+End run(const Case& one, const SimulationOptions& options) {
+  const System system(one.scene);
+  Simulation simulation(system, start_of(one, system), options);
+  End end{simulation.run(one.duration), {}};
+  end.p = simulation.state().y.head(3 * static_cast<Eigen::Index>(system.node_count()));
+  return end;
+}
+
+/// Largest distance of a node, in lengths of the first rod.
+double gap(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double most = 0.0;
+  for (Eigen::Index i = 0; i + 2 < a.size(); i += 3)
+    most = std::max(most, (a.segment<3>(i) - b.segment<3>(i)).norm());
+  return most;
+}
+
+std::optional<Eigen::VectorXd> certified(const Case& one, const Options& options) {
+  SimulationOptions fine;
+  fine.method = Method::rodas;
+  fine.tolerance = 1e-4 * options.tolerance;
+  fine.energy_limit = fine.drift_limit = 1e9;
+  fine.work_limit = static_cast<long>(2 * options.effort);
+  const End first = run(one, fine);
+  if (first.report.stop != Stop::finished) return {};
+  const System system(one.scene);
+  const double w = system.largest_frequency(system.rest_state(), 16, *system.make_workspace());
+  SimulationOptions other = fine;
+  other.method = Method::runge_kutta4;
+  other.fixed_step = other_step(one, w);
+  const End second = run(one, other);
+  if (second.report.stop != Stop::finished || gap(first.p, second.p) > options.tolerance) return {};
+  return first.p;
+}
+
+struct Counts {
+  int certified = 0, right = 0, beyond10 = 0, beyond100 = 0, refused = 0, uncertified = 0;
+  std::map<std::string, int> reasons;
+};
+
+void judge(const Case& one, const Options& options, Counts& counts) {
+  SimulationOptions told;
+  told.method = Method::automatic;
+  told.tolerance = options.tolerance;
+  const End end = run(one, told);
+  const std::optional<Eigen::VectorXd> reference = certified(one, options);
+  if (!reference) {
+    ++counts.uncertified;
+    std::printf("  %s: no reference; %s\n", one.words.c_str(), to_string(end.report.stop));
+    return;
+  }
+  ++counts.certified;
+  if (end.report.stop != Stop::finished) {
+    ++counts.refused;
+    ++counts.reasons[to_string(end.report.stop)];
+    std::printf("  %s: %s: %s\n", one.words.c_str(), to_string(end.report.stop), end.report.reason.c_str());
+    return;
+  }
+  const double error = gap(end.p, *reference) / options.tolerance;
+  ++(error > 100.0 ? counts.beyond100 : error > 10.0 ? counts.beyond10 : counts.right);
+  std::printf("  %s: %.2g tolerances off, %.2g told, %s, %ld steps%s\n", one.words.c_str(), error,
+              end.report.drift / options.tolerance, end.report.method.c_str(), end.report.accepted,
+              error > 100.0  ? " WRONG"
+              : error > 10.0 ? " beyond 10"
+                             : "");
+}
+
+int sweep(const Options& options) {
+  Counts counts;
+  for (int i = 0; i < options.count; ++i) {
+    test::Random random(options.seed * 100003 + static_cast<unsigned long>(i));
+    judge(make_case(random, options.effort), options, counts);
+    std::fflush(stdout);
+  }
+  const auto share = [&](int part) { return 100.0 * part / std::max(1, counts.certified); };
+  std::printf("%d scenes, %d without a reference; of the others\n", options.count, counts.uncertified);
+  std::printf("  within 10 tolerances  %5.1f %%\n", share(counts.right));
+  std::printf("  beyond 10             %5.1f %%\n", share(counts.beyond10));
+  std::printf("  beyond 100            %5.1f %%\n", share(counts.beyond100));
+  std::printf("  refused               %5.1f %%\n", share(counts.refused));
+  for (const auto& [reason, count] : counts.reasons) std::printf("    %s %d\n", reason.c_str(), count);
+  return counts.beyond100 == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace tendril
+
+int main(int argc, char** argv) {
+  tendril::Options options;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const char* value = argv[i + 1];
+    if (!std::strcmp(argv[i], "--seed")) options.seed = std::strtoul(value, nullptr, 10);
+    if (!std::strcmp(argv[i], "--count")) options.count = std::atoi(value);
+    if (!std::strcmp(argv[i], "--tolerance")) options.tolerance = std::atof(value);
+    if (!std::strcmp(argv[i], "--effort")) options.effort = std::atof(value);
+  }
+  return tendril::sweep(options);
+}
