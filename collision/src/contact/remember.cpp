@@ -34,6 +34,9 @@ class Keeper {
     at_end.memory = before_;
     const auto closed = each_touch(model_, at_end, ledger_->placed, [&](const Touch& at) { add(at); });
     if (closed && !before_) refuse(*closed);
+    // Points are met edge by edge and, on an edge, solid by solid: an edge between two of them mixes the keys.
+    std::sort(ledger_->touches.begin(), ledger_->touches.end(),
+              [](const KeptTouch& a, const KeptTouch& b) { return a.key < b.key; });
     return std::move(ledger_);
   }
 
@@ -68,22 +71,12 @@ class Keeper {
     const Response& r = at.response;
     ledger_->contacts.push_back({model_.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider,
                                  at.near.gap + margin, at.near.x, r.normal, r.force, r.friction, r.sticks});
-    if (model_.law.friction > 0.0) ledger_->stuck.push_back({at.key, r.stick_at});
-    const Contact* was = contact_before(at);
-    if (!was) ++ledger_->begun;
-    const Vec3 moved = at.near.x - (was ? was->point : at.near.x);
-    ledger_->friction_work += 0.5 * (r.friction + (was ? was->friction : Vec3::Zero())).dot(moved);
-  }
-
-  /// The same point's contact with the same solid at the last accepted state.
-  const Contact* contact_before(const Touch& at) const {
-    if (!before_) return nullptr;
-    const LineEdge& edge = model_.edges[model_.points[at.near.point].edge];
-    const auto key = std::tuple(model_.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider);
-    const auto key_of = [](const Contact& c) { return std::tuple(c.rod, c.node, c.fraction, c.solid); };
-    for (const Contact& c : before_->contacts)
-      if (key_of(c) == key) return &c;
-    return nullptr;
+    ledger_->touches.push_back({at.key, r.stick_at, at.near.x, r.friction});
+    const KeptTouch* was = before_ ? before_->find(at.key) : nullptr;
+    if (was)
+      ledger_->friction_work += 0.5 * (r.friction + was->friction).dot(at.near.x - was->x);
+    else
+      ++ledger_->begun;
   }
 
   [[noreturn]] void refuse(const Nearness& closed) const {

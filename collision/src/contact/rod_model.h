@@ -22,20 +22,23 @@ struct LineEdge {
   std::uint32_t first, end;
 };
 
-/// Where a point last stuck, in the frame of the solid.
-struct StickPoint {
+/// A point's contact with a solid at the last accepted state.
+struct KeptTouch {
   std::uint64_t key;  ///< point times the number of colliders, plus the collider
-  Vec3 at;
+  Vec3 stick_at;      ///< where it sticks, in the frame of the solid
+  Vec3 x, friction;   ///< where it was in the world, and the friction on it
 };
 
 /// What is remembered besides what is told: where everything was at the last accepted state, and how far it
 /// may move before a point comes into the range of a solid.
 struct Ledger final : ContactMemory {
-  std::vector<Vec3> p;            ///< of all nodes of rods in contact
-  std::vector<Placement> placed;  ///< per collider
-  std::vector<double> slack;      ///< per edge and collider: least gap less the range, or less
-  std::vector<double> least;      ///< per edge, of its slacks
-  std::vector<StickPoint> stuck;  ///< ascending
+  std::vector<Vec3> p;             ///< of all nodes of rods in contact
+  std::vector<Placement> placed;   ///< per collider
+  std::vector<double> slack;       ///< per edge and collider: least gap less the range, or less
+  std::vector<KeptTouch> touches;  ///< by ascending key, for find()
+
+  /// Null where that point was not in the range of that solid.
+  const KeptTouch* find(std::uint64_t key) const;
 };
 
 /// What a point of the line is to a solid.

@@ -5,15 +5,6 @@
 namespace tendril::contact {
 namespace {
 
-/// Where a point sticks: where it did, or where it was at the last accepted state.
-Vec3 stuck_at(const RodModel& model, const Ledger& kept, const LinePoint& at, std::uint64_t key,
-              std::size_t collider) {
-  const auto found = std::lower_bound(kept.stuck.begin(), kept.stuck.end(), key,
-                                      [](const StickPoint& a, std::uint64_t k) { return a.key < k; });
-  if (found != kept.stuck.end() && found->key == key) return found->at;
-  return model.local_before(kept, at, collider);
-}
-
 /// [a] x b = a x b.
 Mat3 cross_matrix(const Vec3& a) {
   Mat3 m;
@@ -67,6 +58,12 @@ void add_body(const StateView& state, const Touch& at, std::size_t body, LoadDer
 
 }  // namespace
 
+const KeptTouch* Ledger::find(std::uint64_t key) const {
+  const auto at = std::lower_bound(touches.begin(), touches.end(), key,
+                                   [](const KeptTouch& t, std::uint64_t k) { return t.key < k; });
+  return at != touches.end() && at->key == key ? &*at : nullptr;
+}
+
 void add_derivatives(const RodModel& model, const StateView& state, const Touch& at, LoadDerivatives& to) {
   const double share[2] = {1.0 - at.fraction, at.fraction};
   for (std::size_t i = 0; i < 2; ++i)
@@ -82,7 +79,11 @@ Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, c
   const std::size_t node = model.node_of(state, model.edges[at.edge]);
   const std::uint64_t key = near.point * model.colliders.size() + near.collider;
   std::optional<Vec3> from;
-  if (kept && model.law.friction > 0.0) from = stuck_at(model, *kept, at, key, near.collider);
+  if (kept && model.law.friction > 0.0) {
+    // What comes into the range within a step is held where it was when the step began: it slides from there.
+    const KeptTouch* was = kept->find(key);
+    from = was ? was->stick_at : model.local_before(*kept, at, near.collider);
+  }
   const Vec3 velocity = RodModel::between(state.v[node], state.v[node + 1], at.fraction);
   return {near,
           node,

@@ -9,7 +9,7 @@ struct Touch {
   Nearness near;
   std::size_t node;  ///< flat, the first of the point's edge
   double fraction, weight;
-  std::uint64_t key;  ///< of its StickPoint
+  std::uint64_t key;  ///< of its KeptTouch
   Response response;
 };
 
@@ -23,8 +23,8 @@ void add_derivatives(const RodModel& model, const StateView& state, const Touch&
 /// The response to a point within the range.
 Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, const Nearness& near);
 
-/// Calls visit(Touch) for every point within the range, in order. The first node of the edge of a point that
-/// a barrier cannot let be where it is, and ends there; empty where there is none.
+/// Calls visit(Touch) for every point within the range, in order. Ends at the first
+/// point that a barrier cannot let be where it is, and returns it; empty where there is none.
 template <class Visit>
 std::optional<Nearness> each_touch(const RodModel& model, const StateView& state,
                                    const std::vector<Placement>& placed, Visit&& visit) {
