@@ -78,12 +78,12 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
                                   const Nearness& near) const {
   const BodyPoint& point = points[near.point];
   const Placement &first = placed[point.collider], &second = placed[near.collider];
-  const Shape& shape = *colliders[near.collider].shape;
-  const Vec3 n = second.rotation * shape.at(near.local).normal;
+  // Damping asks for the velocity along the normal alone, which is the same at the centre and at the surface.
+  const Response response =
+      respond(*colliders[near.collider].shape, law, point.weight, 0.0, near, {}, first.velocity_at(near.x));
+  const Vec3& n = response.normal;
   const Vec3 surface = near.x - near.radius * n;
-  BodyContactPoint out{near, surface,
-                       respond(shape, law, point.weight, 0.0, near, {}, first.velocity_at(surface)),
-                       near.point * colliders.size() + near.collider, Vec3::Zero()};
+  BodyContactPoint out{near, surface, response, near.point * colliders.size() + near.collider, Vec3::Zero()};
   if (law.friction == 0.0 || !kept) return out;
   const auto was = std::lower_bound(kept->meetings.begin(), kept->meetings.end(), out.key,
                                     [](const Meeting& m, std::uint64_t key) { return m.key < key; });

@@ -34,7 +34,8 @@ class Keeper {
     at_end.memory = before_;
     const auto closed = each_touch(model_, at_end, ledger_->placed, [&](const Touch& at) { add(at); });
     if (closed && !before_) refuse(*closed);
-    // Points are met edge by edge and, on an edge, solid by solid: an edge between two of them mixes the keys.
+    // Points are met edge by edge and, on an edge, solid by solid: an edge between two of them mixes the
+    // keys.
     std::sort(ledger_->touches.begin(), ledger_->touches.end(),
               [](const KeptTouch& a, const KeptTouch& b) { return a.key < b.key; });
     return std::move(ledger_);

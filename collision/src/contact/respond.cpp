@@ -37,12 +37,6 @@ Normal push_of(const Law& law, double weight, const Nearness& near, const Vec3& 
   return result;
 }
 
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 /// Coulomb's law by a spring of stiffness k to the point where the surface sticks: with u the way from there
 /// across the normal, s = u + beta u', the force is -k s while that is less than mu N, else mu N against s.
 void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n, const Mat3& bend,

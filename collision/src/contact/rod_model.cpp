@@ -91,6 +91,8 @@ void RodModel::lay_points(std::uint32_t rod, std::uint32_t global) {
   }
 }
 
+/// The sagitta of the bound above, for an edge stretched by a quarter: a margin that followed the edge's
+/// present length would be one more term of the force.
 void RodModel::lay_margins() {
   for (const LineEdge& edge : edges) {
     const ContactRod& rod = rods[edge.rod];
@@ -109,6 +111,8 @@ std::vector<Placement> RodModel::place(const StateView& state) const {
   return result;
 }
 
+/// In the frame of a solid that moves, so that one bound covers the motion of both: distances are the same
+/// there, and every point of the edge lies between its ends and so moves no farther than one of them.
 double RodModel::moved(const Ledger& kept, const LineEdge& edge, const Vec3& a, const Vec3& b,
                        std::size_t collider, const Placement& placed) const {
   const Vec3 &a0 = kept.p[edge.global], &b0 = kept.p[edge.global + 1];
@@ -119,6 +123,7 @@ double RodModel::moved(const Ledger& kept, const LineEdge& edge, const Vec3& a, 
                   (placed.to_local(b) - before.to_local(b0)).norm());
 }
 
+/// The distance alone, without derivatives: most points that are looked at turn out to be out of range.
 Nearness RodModel::nearness(const StateView& state, std::size_t point, std::size_t collider,
                             const Placement& placed) const {
   const LinePoint& at = points[point];

@@ -114,6 +114,13 @@ void RodModel::each_near(const StateView& state, const std::vector<Placement>& p
   }
 }
 
+/// [a] b = a x b.
+inline Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
 /// What a solid does to a point of the line in its range.
 struct Response {
   Vec3 normal;    ///< of the solid, in the world

@@ -41,7 +41,8 @@ class HalfSpace final : public Shape {
   double extent() const override { return kInfinite; }
 };
 
-/// A ball where half is 0.
+/// What lies within a radius of a line: phi is the distance from the line less the radius, bent as about a
+/// line beside it and as about a point beyond its ends. A ball where half is 0.
 class Capsule final : public Shape {
  public:
   Capsule(double half, double radius) : half_(half), radius_(radius) {}
@@ -73,6 +74,9 @@ class Capsule final : public Shape {
   double half_, radius_;
 };
 
+/// Outside, the nearest point is that of clamping: a coordinate that needed none runs along the feature met
+/// (a face has two such, an edge one, a corner none), and phi does not bend that way. Inside, the nearest
+/// face decides; phi has kinks between two of them, where either's side serves.
 class Box final : public Shape {
  public:
   explicit Box(Vec3 half) : half_(std::move(half)) {}
@@ -128,11 +132,13 @@ class Revolved final : public Shape {
     return {value, normal, bend * across * across.transpose() + turned * around * around.transpose()};
   }
   double distance(const Vec3& x) const override { return meridian(std::hypot(x.x(), x.y()), x.z()).value; }
+  /// Rims are as sharp as edges; without them what is left bends about the axis, or, of a bore, inward.
   double outward_radius() const override {
     const bool edges = half_ < kInfinite;
     return edges ? 0.0 : outer_;
   }
   double extent() const override { return std::hypot(outer_, half_); }
+  /// On both rims, of which a half space touches any point first; chords between them are `depth` short.
   std::vector<ShapePoint> points(double depth) const override {
     std::vector<ShapePoint> result;
     if (!(half_ < kInfinite && outer_ < kInfinite)) return result;
@@ -147,6 +153,8 @@ class Revolved final : public Shape {
   double bore() const override { return inner_ > 0.0 ? inner_ : kInfinite; }
 
  private:
+  /// The same problem in the half plane: the distance of a rectangle, flat beside its sides and round about
+  /// its corners, which are the rims.
   struct Meridian {
     double value, by_rho, by_z, bend;
   };

@@ -5,13 +5,6 @@
 namespace tendril::contact {
 namespace {
 
-/// [a] x b = a x b.
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 /// Derivatives of a force f on a point at r from a body's centre, by the body's place, turn, velocity and
 /// spin. The law f(x - c, v - u - omega x r) turns with the body:
 /// df/dphi = -[f] + K [r] + D [v - u - omega x r], K by the point's place alone and D by its velocity.
