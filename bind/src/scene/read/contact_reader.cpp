@@ -47,6 +47,8 @@ contact::ShapePtr make_shape(const SolidShape& shape) {
   return nullptr;
 }
 
+/// The schema knows the keys of all types together; which of them belong to this one is asked here, and the
+/// library refuses sizes that are none.
 SolidShape read_shape(const JsonNode& node) {
   const auto& [type, keys] = shape_types().at(node.at("type").text());
   for (const auto& item : node.value().items())
@@ -109,6 +111,8 @@ Frame read_frame(const JsonNode& body) {
   return {m.col(0), m.col(1), m.col(2)};
 }
 
+/// Of uniform density, so that the mass says all; the frame of a body is that of its shape, about whose
+/// centre of mass every finite one is symmetric.
 Body read_free(const JsonNode& node, const SceneBody& body) {
   Body out;
   out.mass = node.at("mass").positive();
@@ -138,6 +142,7 @@ SceneBody read_body(const JsonNode& node, std::size_t index, SceneFile& out) {
   return body;
 }
 
+/// A free body's place is in the state, so that the collider's own is only where it begins.
 contact::Collider make_collider(const SceneBody& body) {
   const auto placed = [](const AnchorPose& pose) {
     return contact::Placement{rotation_of(pose.frame), pose.position, pose.velocity, pose.angular_velocity};
@@ -182,6 +187,8 @@ double default_stiffness(const JsonNode& contact, const SceneFile& scene, double
   return stiffness;
 }
 
+/// The range is a share of the thinnest rod: shapes seem larger by half of it, so it has to be small beside
+/// what is thick, and steps shrink with it, so no smaller than the eye asks for.
 contact::Law read_law(const JsonNode& node, const SceneFile& scene,
                       const std::vector<contact::ContactRod>& rods) {
   contact::Law law;
@@ -221,6 +228,7 @@ void read_contact(const JsonNode& file, SceneFile& out) {
   };
   out.contact = out.scene.forces.size();
   place.locate([&] { add(std::make_shared<contact::RodContact>(rods, colliders, law)); });
+  // Bodies among themselves are a force of their own: a scene without free ones does not pay for it.
   if (out.scene.bodies.empty() || out.bodies.size() < 2) return;
   place.locate([&] { add(std::make_shared<contact::BodyContact>(colliders, law)); });
 }

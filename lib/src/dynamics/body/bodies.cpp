@@ -98,6 +98,7 @@ void start_bodies(const Model& model, State& state) {
   }
 }
 
+/// The rotation is projected onto the rotations every time, so that rounding does not add up over turns.
 void rebase_bodies(const Model& model, const std::vector<BodyView>& bodies, State& state) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     state.y.segment<3>(Numbers(model, b).phi).setZero();
@@ -105,6 +106,9 @@ void rebase_bodies(const Model& model, const std::vector<BodyView>& bodies, Stat
   }
 }
 
+/// Half way along the cubic in phi through both ends. Its ends' rates are phi' = T(phi) omega: at the start
+/// T is the identity, phi being counted from there. The middle's omega is T^-1 of the cubic's slope, so
+/// that work by torque . omega is that of the motion itself and not of phi'.
 void bend_turns(const Model& model, double h, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                 Eigen::VectorXd& middle) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -118,6 +122,8 @@ void bend_turns(const Model& model, double h, const Eigen::VectorXd& from, const
   }
 }
 
+/// Lanczos's method needs a symmetric operator, M^-1/2 K M^-1/2. In the body's principal axes the inertia is
+/// diagonal, as masses are, so bodies are turned into these before and back after.
 void turn_from_principal_axes(const Model& model, const State& state, Eigen::VectorXd& y) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Numbers at(model, b);
@@ -134,6 +140,8 @@ void turn_to_principal_axes(const Model& model, const State& state, Eigen::Vecto
   }
 }
 
+/// A symmetric body wobbles, seen from the world, at I3 / I1 of its spin; no principal moment exceeds the
+/// sum of the two others, so that is twice the spin at most.
 double fastest_nutation(const Model& model, const State& state) {
   double fastest = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)

@@ -15,6 +15,10 @@ constexpr double kStraight = 1e-9;  // rest angle below which a node counts as s
 
 }  // namespace
 
+/// The deviation of an edge from the tangent is one turn by t across it, of which l and m are the
+/// components: t (x, y) / sin t. So it is a true angle up to half a turn, where asin of the components
+/// would turn back at a quarter. Near the tangent the ratio t / sin t comes from a series, where the
+/// quotient is 0 / 0.
 EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
   EdgeAngles a{};
   a.x = e.dot(frame.x);
@@ -106,6 +110,8 @@ void Model::add_hubs() {
   for (Hub& hub : hubs) hub.give = hub.give.inverse().eval();
 }
 
+/// Neighbouring rods of one kind become one segment, so that loops run over as many nodes as they can; what a
+/// segment's rods lack (third springs, rest angles, viscosity) its loop does not read.
 void Model::lay_out_springs() {
   begins.assign(nodes, 0);
   ends.assign(nodes, 0);
@@ -139,6 +145,9 @@ void Model::lay_out_springs() {
   for (std::size_t i = 0; i < nodes; ++i) lay_out_bending(i);
 }
 
+/// The tangent halves the angle between a node's two edges, so that both deviate alike and one reading serves
+/// for both: rest angles are half the difference of theirs (half the sum of the angles to t, which have no
+/// sign).
 void Model::lay_out_bending(std::size_t i) {
   if (holds_frame(i)) {
     (has_twist(i) ? bending.held : bending.held_hinges).push_back(i);
