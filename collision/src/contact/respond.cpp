@@ -1,15 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod_model.h"
+#include "response.h"
 
 namespace tendril::contact {
 namespace {
-
-/// What slides drags its point behind it, farther than the spring would need, by this factor: else every
-/// change of N would make it stick for a moment, and each accepted step begin with a kink. Where it turns
-/// round, friction turns that much later.
-constexpr double kTrail = 1.1;
 
 /// The normal force m N n, N = -w kappa b', m = max(0, 1 - c d').
 struct Normal {
@@ -37,6 +32,19 @@ Normal push_of(const Law& law, double weight, const Nearness& near, const Vec3& 
   return result;
 }
 
+/// What friction can hold: mu times the normal force, damping included.
+struct Most {
+  double value;
+  Vec3 by_place, by_velocity;
+};
+
+Most most_of(const Law& law, const Normal& normal, const Vec3& n) {
+  const double mu = law.friction;
+  return {mu * normal.damped * normal.push,
+          mu * (normal.damped * normal.by_place + normal.push * normal.damped_by_x),
+          mu * normal.push * normal.damped_by_v * n};
+}
+
 /// Coulomb's law by a spring of stiffness k to the point where the surface sticks: with u the way from there
 /// across the normal, s = u + beta u', the force is -k s while that is less than mu N, else mu N against s.
 void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n, const Mat3& bend,
@@ -51,8 +59,8 @@ void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n,
   const Mat3 by_v = law.stick_damping * across;
   const Mat3 by_x =
       across + along_by_x(y) + law.stick_damping * along_by_x(rate) - by_v * cross_matrix(near.placed->spin);
-  const double pull = k * s.norm(), most = law.friction * normal.push;
-  to.sticks = pull <= most;
+  const Most most = most_of(law, normal, n);
+  to.sticks = k * s.norm() <= most.value;
   to.stick_at = from;
   if (to.sticks) {
     to.friction = -k * s;
@@ -60,11 +68,11 @@ void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n,
     to.by_velocity += -k * by_v;
   } else {
     const Vec3 way = s.normalized();
-    const Mat3 turns = most / s.norm() * (Mat3::Identity() - way * way.transpose());
-    to.friction = -most * way;
-    to.by_position += -law.friction * way * normal.by_place.transpose() - turns * by_x;
-    to.by_velocity += -turns * by_v;
-    const double far = kTrail * most / k;
+    const Mat3 turns = most.value / s.norm() * (Mat3::Identity() - way * way.transpose());
+    to.friction = -most.value * way;
+    to.by_position += -way * most.by_place.transpose() - turns * by_x;
+    to.by_velocity += -way * most.by_velocity.transpose() - turns * by_v;
+    const double far = kTrail * most.value / k;
     if (u.norm() > far) to.stick_at = near.placed->to_local(near.x - far * u.normalized());
   }
   to.force += to.friction;
@@ -85,7 +93,7 @@ bool clear_way(const Shape& shape, const Nearness& near, const Vec3& before, dou
   return true;
 }
 
-Response respond(const Shape& shape, const Law& law, double weight, double stick, const Nearness& near,
+Response respond(const Shape& shape, const Law& law, double weight, const Nearness& near,
                  const std::optional<Vec3>& from, const Vec3& velocity) {
   const SignedDistance at = shape.at(near.local);
   const Mat3& turn = near.placed->rotation;
@@ -97,7 +105,7 @@ Response respond(const Shape& shape, const Law& law, double weight, double stick
                        normal.damped * normal.push * bend;
   result.by_velocity = normal.push * normal.damped_by_v * n * n.transpose();
   if (law.friction > 0.0 && from)
-    add_friction(law, weight * stick, near, n, bend, normal, *from, velocity, result);
+    add_friction(law, weight * stick_of(law), near, n, bend, normal, *from, velocity, result);
   return result;
 }
 

@@ -22,7 +22,7 @@ struct ByBody {
 /// The part of a touch that a free body has: its wrench is (-f, -r x f).
 void add_body(const StateView& state, const Touch& at, std::size_t body, LoadDerivatives& to) {
   const Vec3 r = at.near.x - at.near.placed->position;
-  const Vec3 velocity = RodModel::between(state.v[at.node], state.v[at.node + 1], at.fraction);
+  const Vec3 velocity = between(state.v[at.node], state.v[at.node + 1], at.fraction);
   const Vec3 apart = velocity - at.near.placed->velocity_at(at.near.x);
   const ByBody by(at.response, r, apart, at.near.placed->spin);
   const Mat3 arm = cross_matrix(r), f = cross_matrix(at.response.force);
@@ -68,8 +68,8 @@ void add_derivatives(const RodModel& model, const StateView& state, const Touch&
 }
 
 Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, const Nearness& near) {
-  const LinePoint& at = model.points[near.point];
-  const std::size_t node = model.node_of(state, model.edges[at.edge]);
+  const LinePoint& at = model.lines.points[near.point];
+  const std::size_t node = model.lines.node_of(state, model.lines.edges[at.edge]);
   const std::uint64_t key = near.point * model.colliders.size() + near.collider;
   std::optional<Vec3> from;
   if (kept && model.law.friction > 0.0) {
@@ -77,14 +77,13 @@ Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, c
     const KeptTouch* was = kept->find(key);
     from = was ? was->stick_at : model.local_before(*kept, at, near.collider);
   }
-  const Vec3 velocity = RodModel::between(state.v[node], state.v[node + 1], at.fraction);
+  const Vec3 velocity = between(state.v[node], state.v[node + 1], at.fraction);
   return {near,
           node,
           at.fraction,
           at.weight,
           key,
-          respond(*model.colliders[near.collider].shape, model.law, at.weight, model.stick, near, from,
-                  velocity)};
+          respond(*model.colliders[near.collider].shape, model.law, at.weight, near, from, velocity)};
 }
 
 }  // namespace tendril::contact

@@ -21,12 +21,9 @@ std::size_t index_of(const BodyModel& model, const StateView& state, const Nearn
 
 [[noreturn]] void refuse(const BodyModel& model, const Nearness& closed) {
   const std::size_t first = model.points[closed.point].collider;
-  const auto named = [&](std::size_t i) {
-    const std::string& name = model.colliders[i].name;
-    return "collider " + std::to_string(i) + (name.empty() ? "" : " (" + name + ")");
-  };
   throw InvalidInput("contact",
-                     named(first) + " begins within " + named(closed.collider) + ": the gap is " +
+                     model.colliders.named(first) + " begins within " +
+                         model.colliders.named(closed.collider) + ": the gap is " +
                          std::to_string(closed.gap),
                      "an open gap");
 }
@@ -38,7 +35,7 @@ BodyContact::BodyContact(std::vector<Collider> colliders, const Law& law)
 BodyContact::~BodyContact() = default;
 
 void BodyContact::add(const StateView& state, const Loads& loads) const {
-  const std::vector<Placement> placed = model_->place(state);
+  const std::vector<Placement> placed = model_->colliders.place(state);
   const auto closed = model_->each_touch(placed, ledger_of(state.memory), [&](const BodyContactPoint& at) {
     const Collider &first = model_->colliders[model_->points[at.near.point].collider],
                    &second = model_->colliders[at.near.collider];
@@ -67,23 +64,21 @@ Couplings BodyContact::couplings(std::span<const NodeRange> rods) const {
 }
 
 Couplings BodyContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {
-  for (std::size_t i = 0; i < model_->colliders.size(); ++i)
-    if (const auto& body = model_->colliders[i].body; body && *body >= bodies)
-      throw InvalidInput("contact.colliders[" + std::to_string(i) + "].body", std::to_string(*body),
-                         "below the number of free bodies, " + std::to_string(bodies));
+  model_->colliders.check_bodies(bodies);
   return couplings(rods);
 }
 
 bool BodyContact::has_energy() const {
-  return !model_->driven && model_->law.friction == 0.0 && model_->law.damping == 0.0;
+  return !model_->colliders.driven && conservative(model_->law);
 }
 
 double BodyContact::energy(const StateView& state) const {
   double sum = 0.0;
-  model_->each_touch(model_->place(state), ledger_of(state.memory), [&](const BodyContactPoint& at) {
-    sum += model_->points[at.near.point].weight * model_->law.stiffness *
-           potential(model_->law, at.near.gap).value;
-  });
+  model_->each_touch(model_->colliders.place(state), ledger_of(state.memory),
+                     [&](const BodyContactPoint& at) {
+                       sum += model_->points[at.near.point].weight * model_->law.stiffness *
+                              potential(model_->law, at.near.gap).value;
+                     });
   return sum;
 }
 
@@ -92,22 +87,18 @@ bool BodyContact::refuses() const {
 }
 
 bool BodyContact::depends_on_time() const {
-  return model_->driven;
+  return model_->colliders.driven;
 }
 
 std::vector<double> BodyContact::breaks() const {
-  std::vector<double> result;
-  for (const Collider& collider : model_->colliders)
-    result.insert(result.end(), collider.breaks.begin(), collider.breaks.end());
-  std::sort(result.begin(), result.end());
-  return result;
+  return model_->colliders.breaks();
 }
 
 std::shared_ptr<const ForceMemory> BodyContact::remember(
     const StateView& state, const std::shared_ptr<const ForceMemory>& before) const {
   const BodyLedger* kept = ledger_of(before.get());
   auto next = std::make_shared<BodyLedger>();
-  next->placed = model_->place(state);
+  next->placed = model_->colliders.place(state);
   const auto closed = model_->each_touch(next->placed, kept, [&](const BodyContactPoint& at) {
     const std::size_t first = model_->points[at.near.point].collider, second = at.near.collider;
     next->touches.push_back({first, second, at.near.gap, at.surface, at.response.normal, at.response.force,

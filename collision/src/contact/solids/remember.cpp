@@ -16,12 +16,8 @@ class Keeper {
  public:
   Keeper(const RodModel& model, const StateView& state, const Ledger* before)
       : model_(model), state_(state), before_(before), ledger_(std::make_shared<Ledger>()) {
-    ledger_->placed = model.place(state);
-    ledger_->p.reserve(model.nodes);
-    for (const ContactRod& rod : model.rods) {
-      const Points all = state.p.subspan(state.rods[rod.rod].first, rod.rest.size());
-      ledger_->p.insert(ledger_->p.end(), all.begin(), all.end());
-    }
+    ledger_->placed = model.colliders.place(state);
+    ledger_->p = model.lines.positions(state);
     if (!before) return;
     ledger_->friction_work = before->friction_work;
     ledger_->begun = before->begun;
@@ -44,15 +40,15 @@ class Keeper {
  private:
   void measure_slacks() {
     const std::size_t solids = model_.colliders.size();
-    ledger_->slack.resize(model_.edges.size() * solids);
-    for (std::size_t e = 0; e < model_.edges.size(); ++e)
+    ledger_->slack.resize(model_.lines.edges.size() * solids);
+    for (std::size_t e = 0; e < model_.lines.edges.size(); ++e)
       for (std::size_t c = 0; c < solids; ++c) ledger_->slack[e * solids + c] = slack(e, c);
   }
 
   double slack(std::size_t e, std::size_t c) {
-    const LineEdge& edge = model_.edges[e];
+    const LineEdge& edge = model_.lines.edges[e];
     if (before_) {
-      const std::size_t node = model_.node_of(state_, edge);
+      const std::size_t node = model_.lines.node_of(state_, edge);
       const double moved =
           model_.moved(*before_, edge, state_.p[node], state_.p[node + 1], c, ledger_->placed[c]);
       const double left = before_->slack[e * model_.colliders.size() + c] - moved;
@@ -66,11 +62,11 @@ class Keeper {
   }
 
   void add(const Touch& at) {
-    const LinePoint& point = model_.points[at.near.point];
-    const LineEdge& edge = model_.edges[point.edge];
+    const LinePoint& point = model_.lines.points[at.near.point];
+    const LineEdge& edge = model_.lines.edges[point.edge];
     const double margin = model_.margin[point.edge * model_.colliders.size() + at.near.collider];
     const Response& r = at.response;
-    ledger_->contacts.push_back({model_.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider,
+    ledger_->contacts.push_back({model_.lines.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider,
                                  at.near.gap + margin, at.near.x, r.normal, r.force, r.friction, r.sticks});
     ledger_->touches.push_back({at.key, r.stick_at, at.near.x, r.friction});
     const KeptTouch* was = before_ ? before_->find(at.key) : nullptr;
@@ -81,13 +77,12 @@ class Keeper {
   }
 
   [[noreturn]] void refuse(const Nearness& closed) const {
-    const LineEdge& edge = model_.edges[model_.points[closed.point].edge];
-    const std::string& name = model_.colliders[closed.collider].name;
+    const LineEdge& edge = model_.lines.edges[model_.lines.points[closed.point].edge];
     throw InvalidInput("contact",
-                       "rod " + std::to_string(model_.rods[edge.rod].rod) + " begins within collider " +
-                           std::to_string(closed.collider) + (name.empty() ? "" : " (" + name + ")") +
-                           ": between nodes " + std::to_string(edge.node) + " and " +
-                           std::to_string(edge.node + 1) + " the gap is " + std::to_string(closed.gap),
+                       "rod " + std::to_string(model_.lines.rods[edge.rod].rod) + " begins within " +
+                           model_.colliders.named(closed.collider) + ": between nodes " +
+                           std::to_string(edge.node) + " and " + std::to_string(edge.node + 1) +
+                           " the gap is " + std::to_string(closed.gap),
                        "an open gap");
   }
 

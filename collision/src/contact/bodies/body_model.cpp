@@ -9,15 +9,9 @@
 namespace tendril::contact {
 
 BodyModel::BodyModel(std::vector<Collider> with, const Law& how)
-    : colliders(std::move(with)),
-      law(how),
-      stick(how.stick_stiffness > 0.0 ? how.stick_stiffness : how.stiffness) {
-  contact::check(law, "contact.law");
-  for (std::size_t i = 0; i < colliders.size(); ++i) contact::check(colliders[i], i, 0.0);
-  for (std::size_t i = 0; i < colliders.size(); ++i) {
-    driven = driven || colliders[i].driven;
+    : law(checked(how)), colliders(std::move(with), 0.0) {
+  for (std::size_t i = 0; i < colliders.size(); ++i)
     if (colliders[i].body) add_points(i);
-  }
   if (points.empty()) throw InvalidInput("contact.colliders", "no free body among them", "at least one");
   for (std::size_t i = 0; i < points.size(); ++i) add_pairs(i);
 }
@@ -51,13 +45,6 @@ void BodyModel::add_pairs(std::size_t point) {
   }
 }
 
-std::vector<Placement> BodyModel::place(const StateView& state) const {
-  std::vector<Placement> result;
-  result.reserve(colliders.size());
-  for (const Collider& collider : colliders) result.push_back(collider.at(state));
-  return result;
-}
-
 Nearness BodyModel::nearness(std::size_t point, std::size_t collider,
                              const std::vector<Placement>& placed) const {
   const ShapePoint& at = points[point].at;
@@ -80,7 +67,7 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
   const Placement &first = placed[point.collider], &second = placed[near.collider];
   // Damping asks for the velocity along the normal alone, which is the same at the centre and at the surface.
   const Response response =
-      respond(*colliders[near.collider].shape, law, point.weight, 0.0, near, {}, first.velocity_at(near.x));
+      respond(*colliders[near.collider].shape, law, point.weight, near, {}, first.velocity_at(near.x));
   const Vec3& n = response.normal;
   const Vec3 surface = near.x - near.radius * n;
   BodyContactPoint out{near, surface, response, near.point * colliders.size() + near.collider, Vec3::Zero()};
@@ -94,7 +81,7 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
   const double push = out.response.force.dot(n);
   const Vec3 rate = first.velocity_at(surface) - second.velocity_at(surface);
   const Vec3 pulled = out.apart + law.stick_damping * (rate - n.dot(rate) * n);
-  const double k = point.weight * stick, pull = k * pulled.norm(), most = law.friction * push;
+  const double k = point.weight * stick_of(law), pull = k * pulled.norm(), most = law.friction * push;
   out.response.sticks = pull <= most;
   out.response.friction = -(out.response.sticks ? k : most / pulled.norm()) * pulled;
   if (k * out.apart.norm() > most) out.apart *= most / (k * out.apart.norm());

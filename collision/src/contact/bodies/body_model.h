@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "rod_model.h"
+#include "contact/response.h"
+#include "contact/solids.h"
 
 namespace tendril::contact {
 
@@ -41,14 +42,11 @@ struct BodyContactPoint {
 struct BodyModel {
   BodyModel(std::vector<Collider> colliders, const Law& law);
 
-  std::vector<Collider> colliders;
   Law law;
-  double stick;
-  bool driven = false;
+  Solids colliders;
   std::vector<BodyPoint> points;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< of points and colliders that they may meet
 
-  std::vector<Placement> place(const StateView& state) const;
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   /// How a point is to a collider.
   Nearness nearness(std::size_t point, std::size_t collider, const std::vector<Placement>& placed) const;
