@@ -2,7 +2,7 @@
 
 #include <tendril/base/export.h>
 #include <tendril/collision/box_queries.h>
-#include <tendril/collision/placed_cells.h>
+#include <tendril/collision/placed_nearest.h>
 
 namespace tendril::collision {
 
@@ -58,6 +58,11 @@ class TENDRIL_COLLISION_API AxialHierarchy {
     descend([&](const Box& box) { return segment_meets(box, a, b); }, visit);
   }
 
+  /// As BoxTree::nearest: the triangles with distance(box) not more than bound(), the nearer boxes first.
+  template <class Distance, class Bound, class Visit>
+  void nearest(Distance&& distance, Bound&& bound, Visit&& visit) {
+    collision::nearest(cells_, cells_.root(), distance, bound, visit);
+  }
   /// Calls visit(triangle, other's triangle) for all pairs whose boxes meet. Of one hierarchy with itself
   /// every pair is met both ways round, and every triangle meets itself.
   template <class Visit>

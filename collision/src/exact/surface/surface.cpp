@@ -9,40 +9,15 @@
 #include <string>
 
 #include "exact/crossing.h"
-#include "exact/inside.h"
 #include "exact/narrow.h"
+#include "exact/surface/boxes.h"
+#include "exact/surface/inside.h"
 
 namespace tendril::exact {
 
 using collision::Box;
 
 namespace {
-
-Box moved_out(const Box& box, double radius) {
-  const auto margin = [radius](double x) {
-    return (std::abs(x) + radius) * 4 * kEps + std::numeric_limits<double>::min();
-  };
-  Box out = box;
-  for (int k = 0; k < 3; ++k) {
-    out.low[k] = box.low[k] - radius - margin(box.low[k]);
-    out.high[k] = box.high[k] + radius + margin(box.high[k]);
-  }
-  return out;
-}
-
-Box box_about(const Shape& shape) {
-  const Box box = collision::box_of(points_of(shape));
-  return compare(shape.radius, 0.0) > 0 ? moved_out(box, shape.radius) : box;
-}
-
-/// Never above the distance of anything in the two boxes. The norm where no square leaves the range of
-/// doubles, else one coordinate's gap.
-double boxes_apart(const Box& a, const Box& b) {
-  const Vec3 gap = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0);
-  const double most = gap.maxCoeff();
-  const bool plain = most > 0x1p-400 && most < 0x1p400;
-  return (plain ? gap.norm() : most) * (1 - 16 * kEps);
-}
 
 void check(Points points, std::span<const std::uint32_t> corners) {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -159,16 +134,10 @@ Inside Surface::inside(const Vec3& point) const {
   return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
 }
 
-/// Solid angles by [van Oosterom and Strackee 1983].
 double Surface::winding_about(const Vec3& point) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Triangle t = triangle(i);
-    const Vec3 a = (t[0] - point).stableNormalized(), b = (t[1] - point).stableNormalized(),
-               c = (t[2] - point).stableNormalized();
-    sum += std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
-  }
-  return sum / (2 * std::numbers::pi);
+  for (std::size_t i = 0; i < size(); ++i) sum += solid_angle(triangle(i), point);
+  return sum / (4 * std::numbers::pi);
 }
 
 Answer Surface::solid_relation(const Vec3& centre, double radius) const {

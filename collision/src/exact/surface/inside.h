@@ -27,4 +27,8 @@ inline bool above_or_in(const collision::Box& box, const Vec3& x) {
 /// that no ray meets an edge.
 int crossing_above(const Predicates& signs, const Triangle& t, const Vec3& x);
 
+/// What the triangle covers of the sphere about x, of 4 pi, rounded [van Oosterom and Strackee 1983];
+/// positive where x sees its back.
+double solid_angle(const Triangle& t, const Vec3& x);
+
 }  // namespace tendril::exact

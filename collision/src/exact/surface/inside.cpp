@@ -1,7 +1,8 @@
-#include "exact/inside.h"
+#include "exact/surface/inside.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace tendril::exact {
@@ -45,6 +46,12 @@ std::vector<std::uint32_t> with_coincident_as_one(Points points, std::span<const
   std::vector<std::uint32_t> out;
   for (const std::uint32_t c : corners) out.push_back(first[c]);
   return out;
+}
+
+double solid_angle(const Triangle& t, const Vec3& x) {
+  const Vec3 a = (t[0] - x).stableNormalized(), b = (t[1] - x).stableNormalized(),
+             c = (t[2] - x).stableNormalized();
+  return 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
 int crossing_above(const Predicates& signs, const Triangle& t, const Vec3& x) {

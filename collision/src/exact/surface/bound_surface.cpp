@@ -1,0 +1,178 @@
+#include <tendril/base/error.h>
+#include <tendril/exact/bound_surface.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "exact/narrow.h"
+#include "exact/surface/boxes.h"
+#include "exact/surface/inside.h"
+
+namespace tendril::exact {
+
+using collision::Box;
+using collision::PlacedTriangle;
+
+namespace {
+
+constexpr double kLargest = 0x1p200;
+
+void check(std::span<const CurvePair> pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const BSpline* curve : {&pairs[k].primary(), &pairs[k].orientation()})
+      for (const Vec3& x : curve->control_points())
+        if (!(x.cwiseAbs().maxCoeff() <= kLargest))
+          throw InvalidInput("BoundSurface: curve-pair " + std::to_string(k), "a control point beyond 2^200",
+                             "coordinates of at most 2^200");
+}
+
+using Places = std::vector<double>;
+
+Places places_of(const BoundPoints& points, std::size_t i, std::vector<BoundPlace>& place) {
+  points.places(i, place);
+  Places out;
+  for (const BoundPlace& p : place)
+    out.insert(out.end(),
+               {static_cast<double>(p.pair), p.weight, p.record.t, p.record.u, p.record.v, p.record.w});
+  return out;
+}
+
+/// The corners with one of all points that are bound alike in each one's stead: these are at the same place
+/// in every pose.
+std::vector<std::uint32_t> with_alike_as_one(const BoundPoints& points,
+                                             std::span<const std::uint32_t> corners) {
+  std::vector<BoundPlace> place;
+  std::vector<Places> all;
+  for (std::size_t i = 0; i < points.size(); ++i) all.push_back(places_of(points, i, place));
+  std::vector<std::uint32_t> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return all[a] < all[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && all[order[i - 1]] == all[order[i]];
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  std::vector<std::uint32_t> out;
+  for (const std::uint32_t c : corners) out.push_back(first[c]);
+  return out;
+}
+
+bool closed(const BoundPoints& points, std::span<const collision::Triangle> triangles) {
+  std::vector<std::uint32_t> corners;
+  for (const collision::Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  return edges_are_even(corners) || edges_are_even(with_alike_as_one(points, corners));
+}
+
+Shape shape_of(const PlacedTriangle& t) {
+  return exact::triangle(t.corners);
+}
+
+}  // namespace
+
+BoundSurface::BoundSurface(std::span<const CurvePair> rest, const BoundPoints& points,
+                           std::span<const collision::Triangle> triangles,
+                           const collision::HierarchyOptions& options)
+    : hierarchy_((check(rest), rest), points, triangles, options),
+      closed_(exact::closed(points, triangles)) {}
+
+void BoundSurface::pose(std::span<const CurvePair> posed) {
+  check(posed);
+  hierarchy_.pose(posed);
+}
+
+Answer BoundSurface::relation(const Shape& shape) {
+  if (range_of(shape) == Range::not_finite) return undecidable(Reason::not_finite);
+  const Box box = box_about(shape);
+  Relation most = Relation::free;
+  hierarchy_.descend(
+      [&](const Box& b) { return most != Relation::hit && b.meets(box); },
+      [&](const PlacedTriangle& t) { most = std::max(most, exact::relation(shape, shape_of(t)).relation); });
+  return {most};
+}
+
+std::vector<Meeting> BoundSurface::meetings(const Shape& shape) {
+  std::vector<Meeting> out;
+  if (range_of(shape) == Range::not_finite) return out;
+  hierarchy_.meeting(box_about(shape), [&](const PlacedTriangle& t) {
+    const Relation r = exact::relation(shape, shape_of(t)).relation;
+    if (r != Relation::free) out.push_back({t.index, 0, r});
+  });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<Meeting> BoundSurface::meetings(const Surface& other) {
+  std::vector<Meeting> out;
+  const auto meets_some = [&](const Box& box) {
+    bool some = false;
+    other.tree().descend([&](const Box& b) { return !some && b.meets(box); },
+                         [&](std::size_t) { some = true; });
+    return some;
+  };
+  hierarchy_.descend(meets_some, [&](const PlacedTriangle& t) {
+    other.tree().descend([&](const Box& b) { return b.meets(t.box); },
+                         [&](std::size_t j) {
+                           const Relation r = exact::relation(t.corners, other.triangle(j)).relation;
+                           if (r != Relation::free)
+                             out.push_back({t.index, static_cast<std::uint32_t>(j), r});
+                         });
+  });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Inside BoundSurface::inside(const Vec3& point) {
+  const Shape query = exact::point(point);
+  if (range_of(query) == Range::not_finite) return {undecidable(Reason::not_finite)};
+  bool touching = false;
+  int crossed = 0, winding = 0;
+  hierarchy_.descend([&](const Box& b) { return !touching && above_or_in(b, point); },
+                     [&](const PlacedTriangle& t) {
+                       touching = t.box.holds(point) &&
+                                  exact::relation(query, shape_of(t)).relation != Relation::free;
+                       if (touching) return;
+                       const Predicates signs(std::max(range_of(query), range_of(shape_of(t))));
+                       const int crossing = crossing_above(signs, t.corners, point);
+                       crossed += crossing != 0;
+                       winding += crossing;
+                     });
+  if (touching) return {collision::kTouching};
+  if (!closed_) return {undecidable(Reason::open), winding_about(point)};
+  return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
+}
+
+double BoundSurface::winding_about(const Vec3& point) {
+  double sum = 0.0;
+  hierarchy_.descend([](const Box&) { return true; },
+                     [&](const PlacedTriangle& t) { sum += solid_angle(t.corners, point); });
+  return sum / (4 * std::numbers::pi);
+}
+
+Answer BoundSurface::solid_relation(const Vec3& centre, double radius) {
+  const Answer surface = relation(ball(centre, radius));
+  if (surface.relation == Relation::hit || surface.relation == Relation::undecidable) return surface;
+  const Answer at_centre = inside(centre).answer;
+  return at_centre.relation == Relation::free ? surface : at_centre;
+}
+
+Nearest BoundSurface::nearest(const Shape& shape) {
+  Nearest best;
+  best.distance.lower = best.distance.upper = std::numeric_limits<double>::infinity();
+  best.distance.answer = undecidable(Reason::not_finite);
+  if (range_of(shape) == Range::not_finite) return best;
+  const Box box = box_about(shape);
+  bool found = false;
+  hierarchy_.nearest([&](const Box& b) { return boxes_apart(b, box); }, [&] { return best.distance.upper; },
+                     [&](const PlacedTriangle& t) {
+                       const Distance d = distance(shape, shape_of(t));
+                       const bool nearer = d.upper < best.distance.upper ||
+                                           (d.upper == best.distance.upper && t.index < best.triangle);
+                       if (!found || nearer) best = {d, t.index};
+                       found = true;
+                     });
+  return best;
+}
+
+}  // namespace tendril::exact
