@@ -7,6 +7,7 @@ namespace tendril::scene {
 /// The JSON Schemas of bind/src/scene/schema, embedded when the library is built.
 extern const char* const kSceneSchema;
 extern const char* const kCurveSchema;
+extern const char* const kQueriesSchema;
 
 /// Holds a file against a schema (draft 7). InvalidInput for the deepest violation, as "name#/pointer" with
 /// the value found; what was expected is the description the schema gives at that place.
