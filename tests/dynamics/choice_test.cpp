@@ -35,6 +35,61 @@ TEST(AutomaticChoice, StaysExplicitOnASoftRod) {
   EXPECT_FALSE(report.switches[0].reason.empty());
 }
 
+struct Soft {
+  double young, tolerance, until;
+};
+
+// The guard shortens the steps of all, within what explicit ones may cost; the last one's first step, a share
+// of the run, is longer than that.
+TEST(AutomaticChoice, TakesTheVeryStepsOfCashKarpWhereNothingIsStiff) {
+  for (const auto& [young, tolerance, until] :
+       {Soft{1e3, 1e-5, 1.0}, Soft{1e4, 1e-3, 1.0}, Soft{1e5, 1e-3, 1.0}, Soft{1e5, 1e-4, 4.0}}) {
+    const System system = swinging(32, young);
+    Eigen::VectorXd chosen;
+    Eigen::VectorXd told;
+    const Report report = run(system, Method::automatic, until, &chosen, tolerance);
+    const Report by_name = run(system, Method::cash_karp, until, &told, tolerance);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_EQ(report.switches.size(), 1u) << young;
+    EXPECT_EQ(chosen, told) << young;
+    EXPECT_EQ(report.accepted, by_name.accepted);
+    EXPECT_EQ(report.evaluations, by_name.evaluations);
+    EXPECT_EQ(report.last.total(), by_name.last.total());
+  }
+}
+
+TEST(AutomaticChoice, TakesImplicitStepsAtOnceWhereViscosityIsStrong) {
+  Scene scene = swinging(32, 1e7).scene();
+  scene.rods[0].viscosity = 10.0;
+  const System system(scene);
+  const Report report = run(system, Method::automatic, 5.0);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  ASSERT_EQ(report.switches.size(), 2u);
+  EXPECT_EQ(report.switches[1].time, 0.0);
+  EXPECT_EQ(report.method, "RODAS 4(3)");
+  EXPECT_LT(report.evaluations, 5000);
+}
+
+TEST(AutomaticChoice, LooksAgainSoonAfterAStartInDoubt) {
+  const Report report = run(swinging(32, 1e6), Method::automatic, 1.0);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  ASSERT_EQ(report.switches.size(), 2u);
+  EXPECT_GT(report.switches[1].time, 0.0);
+  EXPECT_LT(report.switches[1].time, 0.01);
+  EXPECT_EQ(report.method, "RODAS 4(3)");
+}
+
+TEST(AutomaticChoice, IsTheDefault) {
+  const System system = swinging(32, 1e8);
+  Simulation simulation(system, system.rest_state(), {.tolerance = 1e-3});
+  const Report report = simulation.run(0.1);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  ASSERT_EQ(report.switches.size(), 2u);
+  EXPECT_EQ(report.switches[0].to, "Cash-Karp 4(5)");
+  EXPECT_EQ(report.switches[1].to, "RODAS 4(3)");
+  EXPECT_EQ(report.method, "RODAS 4(3)");
+}
+
 TEST(AutomaticChoice, TurnsImplicitOnStiffRodsAndEndsRight) {
   for (const double young : {1e8, 1e10}) {
     const System system = swinging(32, young);
@@ -42,6 +97,8 @@ TEST(AutomaticChoice, TurnsImplicitOnStiffRodsAndEndsRight) {
     Eigen::VectorXd reference;
     const Report report = run(system, Method::automatic, 0.3, &end);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    ASSERT_EQ(report.switches.size(), 2u);
+    EXPECT_EQ(report.switches[1].time, 0.0);
     EXPECT_EQ(report.method, "RODAS 4(3)");
     EXPECT_LT(report.accepted, 400);
     ASSERT_EQ(run(system, Method::rodas, 0.3, &reference, 1e-6).stop, Stop::finished);

@@ -161,9 +161,21 @@ TEST(FarForce, IsRefusedByNameWhereEliminationCannotCarryIt) {
     return refused_at([&] { Simulation(system, system.rest_state(), {.method = method}); });
   };
   EXPECT_EQ(run_by(Method::rodas), "forces[2]");
-  EXPECT_EQ(run_by(Method::automatic), "forces[2]");
   EXPECT_EQ(run_by(Method::cash_karp), "");
   EXPECT_EQ(refused_at([&] { Rodas rodas(system); }), "forces[2]");
+}
+
+TEST(FarForce, LeavesTheAutomaticChoiceWithExplicitSteps) {
+  Scene scene;
+  scene.rods.push_back(rod_at(0, 599, false));
+  scene.forces = {std::make_shared<Everything>(0, 599, 1.0, 0.5, Says::exact)};
+  const System system(scene);
+  Simulation simulation(system, system.rest_state(), {.tolerance = 1e-3});
+  const Report report = simulation.run(1e-3);
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_EQ(report.method, "Cash-Karp 4(5)");
+  ASSERT_EQ(report.switches.size(), 1u);
+  EXPECT_NE(report.switches[0].reason.find("forces[0]"), std::string::npos) << report.switches[0].reason;
 }
 
 TEST(FarForce, IsRefusedWhereItNamesWhatIsNotThere) {

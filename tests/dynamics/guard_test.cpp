@@ -109,6 +109,7 @@ TEST_P(EveryRod, EndsRightOrSaysWhyNot) {
   const System system = swinging_rod(GetParam());
   ASSERT_EQ(system.twist_count(), 0u);
   SimulationOptions options;
+  options.method = Method::cash_karp;
   options.tolerance = 1e-3;
   options.work_limit = GetParam().work_limit;
   Simulation simulation(system, let_go(system), options);

@@ -241,6 +241,22 @@ TEST(Drift, IsHowFarWhatIsLostPutsAMotionOff) {
   }
 }
 
+/// Whatever the motion is off by: so is the energy.
+TEST(EnergyLimit, EndsARunThatLosesMore) {
+  const Stiff stiff{.name = "spun", .young = 1e6, .duration = 3.0, .spin = 3.32, .gravity = 0.0};
+  const System system = system_of(stiff);
+  SimulationOptions options;
+  options.own_stepper = [](const System& of) { return std::make_unique<Leaky>(of, false); };
+  options.tolerance = kTolerance;
+  options.drift_limit = 1e9;
+  const double all = 1.0 - std::exp(-2.0 * Leaky::kRate * stiff.duration);
+  for (const double share : {0.5, 1.5}) {
+    options.energy_limit = share * all;
+    const Report report = Simulation(system, start_of(stiff, system), options).run(stiff.duration);
+    EXPECT_EQ(report.stop, share < 1.0 ? Stop::energy_lost : Stop::finished) << report.reason;
+  }
+}
+
 /// Masses pushed at 40 Hz: every stage of a first step of a hundredth of the run would meet the push at 0.
 TEST(FirstStep, KnowsThePeriodOfASignal) {
   Scene scene;

@@ -16,7 +16,9 @@ namespace tendril {
 /// there is none, the largest body's radius of gyration), the same speed, 1 rad, and the speed over the
 /// body's own radius of gyration.
 struct SimulationOptions {
-  Method method = Method::cash_karp;  ///< how steps are taken
+  /// How steps are taken. The automatic choice stays with Cash-Karp where implicit steps would be refused, as
+  /// forces couple too much for their equations.
+  Method method = Method::automatic;
   /// Makes a stepper of the caller's, instead of the method's. With a fixed step it may be any Stepper;
   /// without it must be an EmbeddedStepper, and one that is not stiff is capped by Cash-Karp's guard.
   std::function<std::unique_ptr<Stepper>(const System&)> own_stepper = {};
@@ -29,10 +31,12 @@ struct SimulationOptions {
   std::optional<double> largest_step = {};  ///< default: the whole run
   double amplification = 1e-6;  ///< guard: growth of the fastest undamped oscillation allowed in one step
   double total_amplification = 5e-3;  ///< guard: the same over the whole run; half the energy limit
-  double energy_limit = 1e-2;         ///< of the energy balance, relative to the largest energy seen
-  double drift_limit = 50.0;          ///< of Report::drift, in tolerances
-  long work_limit = 20'000'000;       ///< evaluations of the equations
-  int degree = 3;                     ///< of the curves through the masses (lower for rods of fewer masses)
+  /// Of the energy balance, relative to the largest energy seen; what speeds of two tolerances' error change
+  /// is let pass.
+  double energy_limit = 1e-2;
+  double drift_limit = 50.0;     ///< of Report::drift, in tolerances
+  long work_limit = 20'000'000;  ///< evaluations of the equations
+  int degree = 3;                ///< of the curves through the masses (lower for rods of fewer masses)
   Parametrisation parametrisation = Parametrisation::centripetal;  ///< of those curves
 };
 

@@ -1,11 +1,13 @@
 #include "automatic.h"
 
+#include <tendril/base/error.h>
 #include <tendril/dynamics/cash_karp.h>
 #include <tendril/dynamics/rodas.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/coupling/elimination.h"
 #include "dynamics/scene/words.h"
 
 namespace tendril {
@@ -16,8 +18,12 @@ constexpr double kImplicitCost = 4.5;
 constexpr double kImplicitCostWithTwist = 12.0;
 // No change back and forth: explicit steps must be too dear, or cheap enough, by this factor.
 constexpr double kMargin = 2.0;
-constexpr long kExplicitInterval = 64;  // accepted steps between looks at the choice
-constexpr long kImplicitInterval = 16;  // at first; doubled while far from a change
+// The first step is a guess: to leave at once they must be dearer by this factor more. Else the next look is
+// after this many accepted steps.
+constexpr double kCertain = 10.0;
+constexpr long kDoubt = 16;
+// Accepted implicit steps between looks at the choice, doubled while far from a change.
+constexpr long kImplicitInterval = 16;
 constexpr long kLongestInterval = 256;
 
 }  // namespace
@@ -26,7 +32,13 @@ Automatic::Automatic(const System& system, State start, const SimulationOptions&
                      std::unique_ptr<EmbeddedStepper> stepper)
     : ChosenSteps(system, std::move(start), options, std::move(stepper)),
       cost_(system.twist_count() > 0 ? kImplicitCostWithTwist : kImplicitCost),
-      implicit_interval_(kImplicitInterval / 2) {}
+      implicit_interval_(kImplicitInterval / 2) {
+  try {
+    pattern_of_equations(model_of(system));
+  } catch (const InvalidInput& refusal) {
+    bound_ = sentence("; implicit steps are refused: ", refusal.what());
+  }
+}
 
 void Automatic::turn_to(std::unique_ptr<EmbeddedStepper> stepper) {
   other_evaluations_ += stepper_->evaluations();
@@ -43,19 +55,25 @@ void Automatic::look_again_later(double ratio) {
 void Automatic::look_ahead() {
   const bool stiff = stepper_->stiff();
   if (stiff) foresee();
-  if (!guard_.since().passed(stiff ? implicit_interval_ : kExplicitInterval)) return;
-  measure_guard();
+  const bool due = guard_.since().passed(stiff ? implicit_interval_ : kGuardInterval);
+  if (!due && !(doubtful_ && guard_.since().passed(kDoubt))) return;
+  if (due) measure_guard();
   const bool first = !std::exchange(chosen_, true);
+  doubtful_ = first;
   const double wish = first || stiff ? control_.step() : control_.wish();
   const double ratio = wish / guard_.step();
-  const bool too_dear = !stiff && (ratio > kMargin * cost_ || !explicit_fits());
+  const bool too_dear = !stiff && (ratio > (first ? kCertain : 1.0) * kMargin * cost_ || !explicit_fits());
   const bool cheap_enough = stiff && ratio < cost_ / kMargin && explicit_fits();
+  const std::string why =
+      sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ", guard_.step());
+  const auto tell = [&](const std::string& reason) {
+    report_.switches.push_back({state_.time, report_.method, reason});
+  };
+  if (first) tell(too_dear && bound_.empty() ? "runs begin with explicit steps" : why + bound_);
+  if (too_dear && !bound_.empty()) return refuse_where_too_dear();
   if (too_dear) turn_to(std::make_unique<Rodas>(system_));
   if (cheap_enough) turn_to(std::make_unique<CashKarp>(system_));
-  if (too_dear || cheap_enough || first)
-    report_.switches.push_back({state_.time, report_.method,
-                                sentence("accuracy asks for steps of ", wish,
-                                         ", the guard of explicit steps allows ", guard_.step())});
+  if (too_dear || cheap_enough) tell(why);
   look_again_later(ratio);
 }
 

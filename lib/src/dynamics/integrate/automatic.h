@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "chosen_steps.h"
 
 namespace tendril {
@@ -21,6 +23,8 @@ class Automatic : public ChosenSteps {
 
   double cost_;             ///< of an implicit step, in explicit ones
   bool chosen_ = false;     ///< a first choice was made
+  bool doubtful_ = false;   ///< and that by the first step alone
+  std::string bound_;       ///< why it cannot turn to implicit steps; empty where it can
   long implicit_interval_;  ///< accepted implicit steps between looks at the choice
 };
 

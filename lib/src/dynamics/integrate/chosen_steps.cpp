@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kLongestPhase = 1e5;  // of the fastest motion in an implicit step: rounding grows to 1e-6
 constexpr long kLongRun = 32;          // accepted implicit steps after which that is asked
-constexpr long kGuardInterval = 128;   // accepted steps between estimates of the largest frequency
 constexpr double kFirst = 0.1, kSeen = 0.5;  // of the shortest period: the first step, and any
 constexpr long kPaceInterval = 256;  // accepted implicit steps between looks at what the rest will cost
 // Lengths that the energy lost by implicit steps may put a run off at its end, in tolerances.
@@ -93,6 +92,10 @@ void ChosenSteps::look_ahead() {
   }
   if (!guard_.since().passed(kGuardInterval)) return;
   measure_guard();
+  refuse_where_too_dear();
+}
+
+void ChosenSteps::refuse_where_too_dear() {
   if (needed() > left())
     stop(Stop::too_stiff, sentence("at time ", state_.time, " the fastest motion has ",
                                    report_.largest_frequency, " rad per time unit, which caps the step at ",

@@ -18,11 +18,17 @@ class ChosenSteps : public Controller {
   void take_over(const Past& past) override;
 
  protected:
+  /// Accepted explicit steps between estimates of the largest frequency: the same whoever chooses the method,
+  /// for the same steps.
+  static constexpr long kGuardInterval = 128;
+
   /// Looks at what the next steps depend on, and may stop the run.
   virtual void look_ahead();
   void restart_stepper() override { stepper_->restart(); }
   void begin_anew() override;
   void measure_guard();
+  /// Stops where explicit steps cannot reach the end.
+  void refuse_where_too_dear();
   /// Evaluations that explicit steps would need from here on, and those that are left.
   double needed() const;
   /// Stops where implicit steps cannot reach the end.

@@ -17,6 +17,7 @@ namespace tendril {
 namespace {
 
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
+constexpr double kTolerated = 2.0;    // tolerances that speeds may be off by
 
 bool is_pushed(const Model& model) {
   return std::any_of(model.acting.begin(), model.acting.end(),
@@ -120,13 +121,23 @@ bool Controller::touches() const {
                      [](const auto& kept) { return kept != nullptr; });
 }
 
+/// Speeds may be off by some tolerances of the scale V that steps' errors are measured on. While a motion is
+/// much slower than that (it has just begun), this alone is more than a share of its energy: d tolerances
+/// change E = m v^2 / 2 by m v d tolerance V = 2 d tolerance sqrt(E E_V).
+bool Controller::tolerates(const Energies& energies) const {
+  if (!keeps_tolerance()) return false;
+  const double at_scale = scale_.energy() + scale_.common_energy();
+  return std::abs(energy_.off(state_, energies)) <=
+         2.0 * kTolerated * options_.tolerance * std::sqrt(scale_.most_kinetic() * at_scale);
+}
+
 void Controller::judge(const Energies& energies) {
   // The largest may lie between two looks.
   energy_.scale_at_least(scale_.most_kinetic(), scale_.most_own_kinetic());
   energy_.look(state_, energies);
   const double off = energy_.imbalance();
   const double wrong = may_lose_energy() ? off : std::abs(off);
-  if (!ended_ && wrong > std::max(options_.energy_limit, options_.tolerance))
+  if (!ended_ && wrong > std::max(options_.energy_limit, options_.tolerance) && !tolerates(energies))
     stop(off < 0.0 ? Stop::energy_lost : Stop::energy_gained,
          sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
   if (keeps_tolerance() && !pushed_ && !touches()) judge_drift();

@@ -89,6 +89,7 @@ class Controller {
   void measure_scales();
   void check_energy();
   void judge_drift();
+  bool tolerates(const Energies& energies) const;
   void remember();
 
   bool may_be_refused_ = false;

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "controller.h"
-#include "dynamics/coupling/elimination.h"
 #include "dynamics/scene/model.h"
 #include "dynamics/scene/words.h"
 
@@ -61,11 +60,6 @@ void check_state(const char* name, const System& system, const State& state, Sys
   throw InvalidInput(sentence(name, ": ", name_of_index(model_of(system), at.node)),
                      describe(at.ok() ? Evaluation::Outcome::not_finite : at.outcome),
                      "a state at which the equations can be evaluated");
-}
-
-/// A run that may turn to implicit steps is refused now rather than when it does.
-void check_couplings(const System& system, const SimulationOptions& options) {
-  if (options.method == Method::automatic && !options.own_stepper) pattern_of_equations(model_of(system));
 }
 
 }  // namespace
@@ -189,7 +183,6 @@ struct Simulation::Implementation {
 
 Simulation::Simulation(const System& system, State start, const SimulationOptions& options) {
   check(options);
-  check_couplings(system, options);
   check_state("start", system, start, *system.make_workspace());
   self_ = std::make_unique<Implementation>(system, std::move(start), options);
 }
