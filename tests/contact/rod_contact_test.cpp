@@ -5,38 +5,15 @@
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
+#include "shown.h"
 #include "support/rods.h"
 
 namespace tendril::contact {
 namespace {
 
 using test::Random;
-
-/// What a force is shown of rods whose nodes stand and move anyhow.
-struct Shown {
-  std::vector<Vec3> p, v, t, m;
-  std::vector<double> spin, mass, width;
-  std::vector<NodeRange> rods;
-  std::shared_ptr<const ForceMemory> memory;
-  std::vector<BodyView> bodies;
-
-  StateView view() const { return {0.25, p, v, t, spin, mass, width, rods, m, memory.get(), bodies}; }
-};
-
-Shown shown(Random& random, const std::vector<Vec3>& at, double speed) {
-  Shown s;
-  s.p = at;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    s.v.push_back(random.in_cube(speed));
-    s.t.push_back(Vec3::UnitX());
-    s.m.push_back(Vec3::UnitZ());
-    s.spin.push_back(0.0);
-    s.mass.push_back(1.0);
-    s.width.push_back(0.1);
-  }
-  s.rods = {{0, at.size()}};
-  return s;
-}
+using test::Shown;
+using test::shown;
 
 std::vector<Vec3> wavy(double height) {
   std::vector<Vec3> p;

@@ -6,32 +6,6 @@
 namespace tendril::contact {
 namespace {
 
-/// The normal force m N n, N = -w kappa b', m = max(0, 1 - c d').
-struct Normal {
-  double push;         ///< N
-  Vec3 by_place;       ///< dN / dx
-  double damped;       ///< m
-  Vec3 damped_by_x;    ///< dm / dx
-  double damped_by_v;  ///< dm / dv is this times n
-};
-
-Normal push_of(const Law& law, double weight, const Nearness& near, const Vec3& n, const Mat3& bend,
-               const Vec3& velocity) {
-  const Potential b = potential(law, near.gap);
-  const double k = weight * law.stiffness;
-  Normal result{-k * b.slope, -k * b.bend * n, 1.0, Vec3::Zero(), 0.0};
-  if (law.damping == 0.0) return result;
-  const Vec3 apart = velocity - near.placed->velocity_at(near.x);
-  result.damped = 1.0 - law.damping * n.dot(apart);
-  if (result.damped <= 0.0) {
-    result.damped = 0.0;
-    return result;
-  }
-  result.damped_by_x = -law.damping * (bend * apart - n.cross(near.placed->spin));
-  result.damped_by_v = -law.damping;
-  return result;
-}
-
 /// What friction can hold: mu times the normal force, damping included.
 struct Most {
   double value;
@@ -80,6 +54,30 @@ void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n,
 
 }  // namespace
 
+Normal push_of(const Law& law, double weight, double gap, const Vec3& n, const Mat3& bend, const Vec3& rate,
+               const Vec3& spin) {
+  const Potential b = potential(law, gap);
+  const double k = weight * law.stiffness;
+  Normal result{-k * b.slope, -k * b.bend * n, 1.0, Vec3::Zero(), 0.0};
+  if (law.damping == 0.0) return result;
+  result.damped = 1.0 - law.damping * n.dot(rate);
+  if (result.damped <= 0.0) {
+    result.damped = 0.0;
+    return result;
+  }
+  result.damped_by_x = -law.damping * (bend * rate - n.cross(spin));
+  result.damped_by_v = -law.damping;
+  return result;
+}
+
+Mat3 by_position(const Normal& normal, const Vec3& n, const Mat3& bend) {
+  return n * (normal.damped * normal.by_place + normal.push * normal.damped_by_x).transpose() +
+         normal.damped * normal.push * bend;
+}
+Mat3 by_velocity(const Normal& normal, const Vec3& n) {
+  return normal.push * normal.damped_by_v * n * n.transpose();
+}
+
 bool clear_way(const Shape& shape, const Nearness& near, const Vec3& before, double radius, double range) {
   const Vec3 way = before - near.local;
   const double length = way.norm();
@@ -99,11 +97,11 @@ Response respond(const Shape& shape, const Law& law, double weight, const Nearne
   const Mat3& turn = near.placed->rotation;
   const Vec3 n = turn * at.normal;
   const Mat3 bend = turn * at.curvature * turn.transpose();
-  const Normal normal = push_of(law, weight, near, n, bend, velocity);
+  const Vec3 rate = velocity - near.placed->velocity_at(near.x);
+  const Normal normal = push_of(law, weight, near.gap, n, bend, rate, near.placed->spin);
   Response result{n, normal.damped * normal.push * n, Vec3::Zero(), false, near.local};
-  result.by_position = n * (normal.damped * normal.by_place + normal.push * normal.damped_by_x).transpose() +
-                       normal.damped * normal.push * bend;
-  result.by_velocity = normal.push * normal.damped_by_v * n * n.transpose();
+  result.by_position = by_position(normal, n, bend);
+  result.by_velocity = by_velocity(normal, n);
   if (law.friction > 0.0 && from)
     add_friction(law, weight * stick_of(law), near, n, bend, normal, *from, velocity, result);
   return result;

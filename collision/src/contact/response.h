@@ -53,6 +53,24 @@ inline Mat3 cross_matrix(const Vec3& a) {
   return m;
 }
 
+/// The normal force m N n, N = -w kappa b', m = max(0, 1 - c d').
+struct Normal {
+  double push;         ///< N
+  Vec3 by_place;       ///< dN / dx
+  double damped;       ///< m
+  Vec3 damped_by_x;    ///< dm / dx
+  double damped_by_v;  ///< dm / dv is this times n
+};
+/// \param n     unit, away from what is met
+/// \param bend  dn / dx
+/// \param rate  velocity less that of what is met, there
+/// \param spin  of what is met
+Normal push_of(const Law& law, double weight, double gap, const Vec3& n, const Mat3& bend, const Vec3& rate,
+               const Vec3& spin);
+/// d(m N n) / dx and / dv.
+Mat3 by_position(const Normal& normal, const Vec3& n, const Mat3& bend);
+Mat3 by_velocity(const Normal& normal, const Vec3& n);
+
 /// Whether the straight way of a point whose gap is open, from `before` in the solid's frame, keeps the gap
 /// open: spheres of free space along the way back [Hart 1996]. A step over less than 1e-4 of the range may
 /// pass what is thinner than that of the widened solid, and so lies within the point's own radius.
