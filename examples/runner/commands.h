@@ -22,6 +22,7 @@ Command check_command(CLI::App& parent);
 Command axis_command(CLI::App& parent);
 Command bind_command(CLI::App& parent);
 Command render_command(CLI::App& parent);
+Command accuracy_command(CLI::App& parent);
 Command collide_command(CLI::App& parent);
 Command repair_command(CLI::App& parent);
 Command report_command(CLI::App& parent);

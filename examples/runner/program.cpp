@@ -28,10 +28,10 @@ int run_program(int argc, const char* const* argv) {
   CLI::App app{"Deforms surface meshes by axial curve-pairs, and moves the curve-pairs by rod dynamics"};
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done; 1 a numerical outcome that is not success; 2 bad input.");
-  const std::vector<Command> commands{run_command(app),     axis_command(app),   deform_command(app),
-                                      project_command(app), check_command(app),  bind_command(app),
-                                      render_command(app),  repair_command(app), report_command(app),
-                                      statics_command(app), collide_command(app)};
+  const std::vector<Command> commands{run_command(app),     axis_command(app),    deform_command(app),
+                                      project_command(app), check_command(app),   bind_command(app),
+                                      render_command(app),  repair_command(app),  report_command(app),
+                                      statics_command(app), collide_command(app), accuracy_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

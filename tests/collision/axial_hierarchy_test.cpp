@@ -9,8 +9,11 @@ namespace tendril::collision {
 namespace {
 
 using test::bent;
+using test::bound_to_three;
 using test::BoundMesh;
+using test::each;
 using test::Random;
+using test::random_pose;
 using test::with_control_point;
 using Node = PlacedCells::Node;
 using Pose = std::vector<CurvePair>;
@@ -83,21 +86,6 @@ void add(const BoundMesh& mesh, PlacedCells& cells, const Pose& pose, Containmen
   compare(cells, cells.root(), mesh.at(pose), mesh.triangles, boxes, next, sum);
 }
 
-Pose each(const Pose& rest, const std::function<CurvePair(const CurvePair&)>& pose) {
-  Pose out;
-  for (const CurvePair& pair : rest) out.push_back(pose(pair));
-  return out;
-}
-
-/// From gentle bends to folds, twists of several turns, and control points thrown about.
-Pose random_pose(const Pose& rest, Random& random) {
-  const double bend = random.uniform(-8.0, 8.0);
-  const double twist = random.uniform(-15.0, 15.0);
-  const double size = random.integer(2) == 0 ? 0.0 : std::exp(random.uniform(-8.0, 0.0));
-  return each(rest,
-              [&](const CurvePair& pair) { return test::shaken(bent(pair, bend, twist), size, random); });
-}
-
 /// Poses in which frames fail: points on each other, folded back, offsets along the tangent or 0.
 std::vector<Pose> degenerate_poses(const Pose& rest, Random& random) {
   std::vector<Pose> out;
@@ -129,22 +117,6 @@ BoundMesh bound_tube() {
 }
 BoundMesh bound_leaf() {
   return {{test::straight_pair(6, 0.0)}, test::leaf(40, 32)};
-}
-
-/// A tube with an axis for each half and one across, so that points have places on several.
-BoundMesh bound_to_three() {
-  bind::BindOptions options;
-  options.mode = bind::BindMode::continuous;
-  options.band = 1.0;
-  const auto line = [](const Vec3& from, const Vec3& to) {
-    std::vector<Vec3> p;
-    for (int i = 0; i < 6; ++i) p.push_back(from + (to - from) * (i / 5.0));
-    return test::pair_through(p, Vec3(0.1, 0.2, 1.0).normalized(), 0.1);
-  };
-  return {{line({0.05, 0, 0}, {0.45, 0, 0}), line({0.55, 0, 0}, {0.95, 0, 0}),
-           line({0.5, -0.1, 0}, {0.5, 0.1, 0})},
-          test::tube(40, 24, 0.15),
-          options};
 }
 
 /// A ball in the bow of a U, whose points have places far from each other on one curve-pair.

@@ -182,6 +182,38 @@ inline CurvePair straight_pair(int masses, double inset) {
   return pair_through(p, Vec3::UnitZ(), 0.1);
 }
 
+using Pose = std::vector<CurvePair>;
+
+inline Pose each(const Pose& rest, const std::function<CurvePair(const CurvePair&)>& pose) {
+  Pose out;
+  for (const CurvePair& pair : rest) out.push_back(pose(pair));
+  return out;
+}
+
+/// From gentle bends to folds, twists of several turns, and control points thrown about.
+inline Pose random_pose(const Pose& rest, Random& random) {
+  const double bend = random.uniform(-8.0, 8.0);
+  const double twist = random.uniform(-15.0, 15.0);
+  const double size = random.integer(2) == 0 ? 0.0 : std::exp(random.uniform(-8.0, 0.0));
+  return each(rest, [&](const CurvePair& pair) { return shaken(bent(pair, bend, twist), size, random); });
+}
+
+/// A tube with an axis for each half and one across, so that points have places on several.
+inline BoundMesh bound_to_three() {
+  bind::BindOptions options;
+  options.mode = bind::BindMode::continuous;
+  options.band = 1.0;
+  const auto line = [](const Vec3& from, const Vec3& to) {
+    std::vector<Vec3> p;
+    for (int i = 0; i < 6; ++i) p.push_back(from + (to - from) * (i / 5.0));
+    return pair_through(p, Vec3(0.1, 0.2, 1.0).normalized(), 0.1);
+  };
+  return {{line({0.05, 0, 0}, {0.45, 0, 0}), line({0.55, 0, 0}, {0.95, 0, 0}),
+           line({0.5, -0.1, 0}, {0.5, 0.1, 0})},
+          tube(40, 24, 0.15),
+          options};
+}
+
 inline collision::Box box_of(const std::vector<Vec3>& at, const Triangle& t) {
   return {at[t[0]].cwiseMin(at[t[1]]).cwiseMin(at[t[2]]), at[t[0]].cwiseMax(at[t[1]]).cwiseMax(at[t[2]])};
 }
