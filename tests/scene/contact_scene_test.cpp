@@ -80,6 +80,50 @@ TEST(ContactScene, WithoutResponseABodyFallsThrough) {
   EXPECT_NEAR(run.snapshot().bodies[1].position.z(), 0.7 - 0.5 * 0.3 - 0.5 * 9.81 * 0.09, 1e-6);
 }
 
+/// Two rods that cross, and a twig on the one that falls: it is kin of its stem, no contact.
+Json crossing() {
+  return Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [
+      {"name": "held", "points": [[0, -0.3, 0], [0, 0.3, 0]], "nodes": 4, "orientation": [0, 0, 1],
+       "material": {"young": 1e8, "poisson": 0.35, "density": 400},
+       "section": {"type": "circular", "radius": 0.02}, "anchors": [{"nodes": [0, 3]}]},
+      {"name": "stem", "points": [[-0.3, 0.01, 0.06], [0.3, 0, 0.06]], "nodes": 5, "orientation": [0, 0, 1],
+       "material": {"young": 1e7, "poisson": 0.35, "density": 400},
+       "section": {"type": "circular", "radius": 0.015}, "mass_damping": 1.0},
+      {"name": "twig", "points": [[0.15, 0.0025, 0.06], [0.25, 0.12, 0.06]], "nodes": 4, "orientation": [0, 0, 1],
+       "material": {"young": 1e7, "poisson": 0.35, "density": 400},
+       "section": {"type": "circular", "radius": 0.01},
+       "joint": {"curve_pair": "stem", "node": 3}}],
+    "self_contact": {"friction": 0.3, "damping": 0.5},
+    "forces": [{"type": "gravity", "acceleration": [0, 0, -9.81]}],
+    "simulation": {"duration": 0.15, "tolerance": 1e-4, "frames": 16}
+  })");
+}
+
+TEST(ContactScene, RodsMeetEachOther) {
+  scene::SceneRun run(read(crossing()));
+  double pressed = 0.0, least = 1.0;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    EXPECT_TRUE(now.contacts.empty());
+    for (const scene::RodContactPoint& c : now.rod_contacts) {
+      EXPECT_EQ(c.curve_pair[0], 0u);
+      EXPECT_EQ(c.curve_pair[1], 1u);
+      pressed = std::max(pressed, -c.force.z());
+      least = std::min(least, c.gap);
+    }
+  });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(pressed, 0.001);
+  EXPECT_GT(least, 0.0);
+  EXPECT_GT(run.snapshot().masses[1][2].z(), 0.03);
+  Json off = crossing();
+  off["self_contact"]["response"] = "off";
+  scene::SceneRun through(read(off));
+  EXPECT_EQ(through.run().stop, Stop::finished);
+  EXPECT_LT(through.snapshot().masses[1][2].z(), 0.0);
+}
+
 std::string refusal(const Json& json) {
   try {
     scene::SceneRun run(read(json));
@@ -105,6 +149,7 @@ TEST(ContactScene, RefusesWithThePlace) {
   expect([](Json& s) { s["bodies"][2]["shape"]["size"] = {1, 0, 1}; }, "#/bodies/2");
   expect([](Json& s) { s["contact"]["range"] = 0.0; }, "#/contact/range");
   expect([](Json& s) { s.erase("bodies"); }, "#/contact");
+  expect([](Json& s) { s["self_contact"] = {{"range", -1.0}}; }, "#/self_contact/range");
   expect([](Json& s) { s.erase("forces"); }, "#/contact");
   expect(
       [](Json& s) {

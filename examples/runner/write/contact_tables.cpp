@@ -34,6 +34,17 @@ void ContactTables::add(const scene::Snapshot& snapshot) {
     for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(contacts_, v);
     contacts_ += c.sticks ? ",1\n" : ",0\n";
   }
+  for (const scene::RodContactPoint& c : snapshot.rod_contacts) {
+    rod_contacts_ += time;
+    for (const std::size_t i : {0, 1}) {
+      append(rod_contacts_, c.curve_pair[i]);
+      append(rod_contacts_, c.node[i]);
+      rod_contacts_.append(1, ',').append(shortest(c.fraction[i]));
+    }
+    rod_contacts_.append(1, ',').append(shortest(c.gap));
+    for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(rod_contacts_, v);
+    rod_contacts_ += c.sticks ? ",1\n" : ",0\n";
+  }
 }
 
 }  // namespace tendril::runner

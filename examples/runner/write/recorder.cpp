@@ -69,6 +69,7 @@ void Recorder::look(const scene::Snapshot& snapshot) {
 void Recorder::write_trajectory() {
   const Phases::Timer timer(phases_, Phases::write);
   write("trajectory.csv", trajectory_.csv());
+  if (file_.self_contact) write("rod_contacts.csv", contact_.rod_contacts());
   if (file_.bodies.empty()) return;
   write("bodies.csv", contact_.bodies());
   write("contacts.csv", contact_.contacts());

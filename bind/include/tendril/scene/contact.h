@@ -3,6 +3,7 @@
 #include <tendril/base/types.h>
 #include <tendril/dynamics/anchor.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -49,6 +50,19 @@ struct ContactPoint {
   Vec3 force;              ///< on the rod, friction included
   Vec3 friction;           ///< of it
   bool sticks;             ///< friction below mu N
+};
+
+/// Two points of rods' lines in contact with each other.
+struct RodContactPoint {
+  std::array<std::size_t, 2> curve_pair;  ///< indices; the same where a rod meets itself
+  std::array<std::size_t, 2> node;        ///< points are p_node + fraction (p_(node + 1) - p_node)
+  std::array<double, 2> fraction;         ///< in [0, 1]
+  double gap;                             ///< between the surfaces [length]
+  Vec3 point;                             ///< between them
+  Vec3 normal;                            ///< from the second to the first, unit
+  Vec3 force;                             ///< on the first, friction included
+  Vec3 friction;                          ///< of it
+  bool sticks;                            ///< friction below mu N
 };
 
 }  // namespace tendril::scene

@@ -31,6 +31,7 @@ struct SceneFile {
   std::vector<std::string> force_places;     ///< and of each force
   std::vector<SceneBody> bodies;             ///< solids that rods meet
   std::optional<std::size_t> contact;        ///< index of their contact among the scene's forces
+  std::optional<std::size_t> self_contact;   ///< of that of rods with each other and themselves
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
   SimulationOptions options;                 ///< method, tolerance, limits, degree of the curves

@@ -4,6 +4,7 @@
 
 #include <tendril/contact/body_contact.h>
 #include <tendril/contact/rod_contact.h>
+#include <tendril/contact/rod_rod_contact.h>
 
 #include <algorithm>
 #include <cmath>
@@ -166,20 +167,34 @@ std::vector<contact::ContactRod> read_rods(const JsonNode& list, const SceneFile
   return rods;
 }
 
+/// What falls in a scene.
+struct Falling {
+  double g = 0.0;
+  double mass = 0.0, heaviest = 0.0;   // of all rods, and of one
+  double length = 0.0, longest = 0.0;  // of the same
+};
+
+Falling falling_of(const JsonNode& contact, const SceneFile& scene) {
+  Falling out;
+  for (const auto& force : scene.scene.forces)
+    if (const auto a = force->uniform_acceleration()) out.g = std::max(out.g, a->norm());
+  if (!(out.g > 0.0)) contact.refuse("no stiffness, and no gravity to choose one by", "a stiffness");
+  for (const Rod& rod : scene.scene.rods) {
+    double length = 0.0, mass = 0.0;
+    for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) length += (rod.p[i + 1] - rod.p[i]).norm();
+    for (const double m : rod.mass) mass += m;
+    out.length += length;
+    out.mass += mass;
+    out.longest = std::max(out.longest, length);
+    out.heaviest = std::max(out.heaviest, mass);
+  }
+  return out;
+}
+
 /// A barrier that carries a tenth of what all rods and every body gain when they fall by the scene's longest
 /// rod.
 double default_stiffness(const JsonNode& contact, const SceneFile& scene, double range, double radius) {
-  double g = 0.0, mass = 0.0, length = 0.0, longest = 0.0;
-  for (const auto& force : scene.scene.forces)
-    if (const auto a = force->uniform_acceleration()) g = std::max(g, a->norm());
-  if (!(g > 0.0)) contact.refuse("no stiffness, and no gravity to choose one by", "a stiffness");
-  for (const Rod& rod : scene.scene.rods) {
-    double one = 0.0;
-    for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) one += (rod.p[i + 1] - rod.p[i]).norm();
-    for (const double m : rod.mass) mass += m;
-    length += one;
-    longest = std::max(longest, one);
-  }
+  const auto [g, mass, heaviest, length, longest] = falling_of(contact, scene);
   double stiffness = kCarries * mass * g * longest / (length * range * range);
   for (const Body& body : scene.scene.bodies)
     stiffness = std::max(
@@ -187,17 +202,29 @@ double default_stiffness(const JsonNode& contact, const SceneFile& scene, double
   return stiffness;
 }
 
+/// The same of two rods that cross, by the energy of the heaviest: near a crossing the sum of weights, as
+/// a multiple of the gap's change, is 2 pi d / sqrt(2 d range), d the distance of the lines, so that the
+/// barrier holds some kappa range^3 sqrt(20 d / range).
+double crossing_stiffness(const JsonNode& contact, const SceneFile& scene, double range, double radius) {
+  const Falling falling = falling_of(contact, scene);
+  const double energy = falling.heaviest * falling.g * falling.longest;
+  return kCarries * energy / (std::pow(range, 3) * std::sqrt(40.0 * radius / range));
+}
+
+/// A stiffness for a range and the least radius of rods.
+using Stiffness = double (*)(const JsonNode& contact, const SceneFile& scene, double range, double radius);
+
 /// The range is a share of the thinnest rod: shapes seem larger by half of it, so it has to be small beside
 /// what is thick, and steps shrink with it, so no smaller than the eye asks for.
 contact::Law read_law(const JsonNode& node, const SceneFile& scene,
-                      const std::vector<contact::ContactRod>& rods) {
+                      const std::vector<contact::ContactRod>& rods, Stiffness stiffness) {
   contact::Law law;
   if (node.text_or("response", "barrier") == "penalty") law.kind = contact::Law::Kind::penalty;
   double least = std::numeric_limits<double>::infinity();
   for (const contact::ContactRod& rod : rods) least = std::min(least, rod.radius);
   law.range = node.has("range") ? node.at("range").positive() : kRangeOfRadius * least;
-  law.stiffness = node.has("stiffness") ? node.at("stiffness").positive()
-                                        : default_stiffness(node, scene, law.range, least);
+  law.stiffness =
+      node.has("stiffness") ? node.at("stiffness").positive() : stiffness(node, scene, law.range, least);
   law.friction = node.has("friction") ? node.at("friction").not_negative() : 0.0;
   law.damping = node.has("damping") ? node.at("damping").not_negative() : 0.0;
   if (node.has("stick_damping")) law.stick_damping = node.at("stick_damping").not_negative();
@@ -205,9 +232,24 @@ contact::Law read_law(const JsonNode& node, const SceneFile& scene,
   return law;
 }
 
-}  // namespace
+/// Of rods with each other and themselves.
+void read_self_contact(const JsonNode& file, SceneFile& out) {
+  if (!file.has("self_contact")) return;
+  const JsonNode node = file.at("self_contact");
+  if (node.text_or("response", "barrier") == "off") return;
+  const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
+  std::vector<contact::RodJoint> joints;
+  for (const Joint& joint : out.scene.joints)
+    joints.push_back({{joint.parent, joint.child}, {joint.node, 0}});
+  const contact::Law law = read_law(node, out, rods, crossing_stiffness);
+  out.self_contact = out.scene.forces.size();
+  node.locate(
+      [&] { out.scene.forces.push_back(std::make_shared<contact::RodRodContact>(rods, joints, law)); });
+  out.force_places.push_back(node.pointer());
+}
 
-void read_contact(const JsonNode& file, SceneFile& out) {
+/// Of rods with bodies, and of these with each other.
+void read_body_contact(const JsonNode& file, SceneFile& out) {
   if (!file.has("bodies")) {
     if (file.has("contact")) file.at("contact").refuse("no bodies", "bodies that rods meet");
     return;
@@ -221,7 +263,7 @@ void read_contact(const JsonNode& file, SceneFile& out) {
   std::vector<contact::Collider> colliders;
   for (const SceneBody& body : out.bodies) colliders.push_back(make_collider(body));
   const JsonNode place = file.has("contact") ? contact : list;
-  const contact::Law law = read_law(contact, out, rods);
+  const contact::Law law = read_law(contact, out, rods, default_stiffness);
   const auto add = [&](std::shared_ptr<const Force> force) {
     out.scene.forces.push_back(std::move(force));
     out.force_places.push_back(place.pointer());
@@ -233,14 +275,36 @@ void read_contact(const JsonNode& file, SceneFile& out) {
   place.locate([&] { add(std::make_shared<contact::BodyContact>(colliders, law)); });
 }
 
+/// What a force of the scene remembers; null where it has no such memory.
+template <class Memory>
+const Memory* memory_of(const std::optional<std::size_t>& force, const State& state) {
+  if (!force || *force >= state.memory.size()) return nullptr;
+  return dynamic_cast<const Memory*>(state.memory[*force].get());
+}
+
+}  // namespace
+
+void read_contact(const JsonNode& file, SceneFile& out) {
+  read_body_contact(file, out);
+  read_self_contact(file, out);
+}
+
 std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state) {
   std::vector<ContactPoint> result;
-  if (!file.contact || *file.contact >= state.memory.size()) return result;
-  const auto* memory = dynamic_cast<const contact::ContactMemory*>(state.memory[*file.contact].get());
+  const auto* memory = memory_of<contact::ContactMemory>(file.contact, state);
   if (memory == nullptr) return result;
   for (const contact::Contact& c : memory->contacts)
     result.push_back(
         {c.rod, c.node, c.fraction, c.solid, c.gap, c.point, c.normal, c.force, c.friction, c.sticks});
+  return result;
+}
+
+std::vector<RodContactPoint> rod_contacts_of(const SceneFile& file, const State& state) {
+  std::vector<RodContactPoint> result;
+  const auto* memory = memory_of<contact::RodRodMemory>(file.self_contact, state);
+  if (memory == nullptr) return result;
+  for (const contact::RodTouch& t : memory->touches)
+    result.push_back({t.rod, t.node, t.fraction, t.gap, t.point, t.normal, t.force, t.friction, t.sticks});
   return result;
 }
 

@@ -6,11 +6,13 @@
 
 namespace tendril::scene {
 
-/// The bodies, and the contact of rods with them, as the last force of the scene.
+/// The bodies, the contact of rods with them, and of rods with each other: the last forces of the scene.
 /// \param file  the whole scene, its rods and forces read
 void read_contact(const JsonNode& file, SceneFile& out);
 
-/// Where rods are in contact at an accepted state of the scene.
+/// Where rods are in contact with bodies at an accepted state of the scene.
 std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state);
+/// And with each other and themselves.
+std::vector<RodContactPoint> rod_contacts_of(const SceneFile& file, const State& state);
 
 }  // namespace tendril::scene

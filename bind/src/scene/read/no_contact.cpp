@@ -4,12 +4,15 @@
 namespace tendril::scene {
 
 void read_contact(const JsonNode& file, SceneFile&) {
-  for (const char* key : {"bodies", "contact"})
+  for (const char* key : {"bodies", "contact", "self_contact"})
     if (file.has(key))
       file.at(key).refuse("this build leaves tendril::contact out", "a build with TENDRIL_CONTACT on");
 }
 
 std::vector<ContactPoint> contacts_of(const SceneFile&, const State&) {
+  return {};
+}
+std::vector<RodContactPoint> rod_contacts_of(const SceneFile&, const State&) {
   return {};
 }
 

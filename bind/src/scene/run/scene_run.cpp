@@ -76,6 +76,7 @@ struct SceneRun::Implementation : Follower {
     const std::vector<BodyView> free = system.bodies(state);
     for (const SceneBody& body : file.bodies) out.bodies.push_back(pose_of(body, free, state.time));
     out.contacts = contacts_of(file, state);
+    out.rod_contacts = rod_contacts_of(file, state);
     if (mesh) {
       const Stopwatch watch(seconds.update);
       mesh->update(pairs, threads);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <string>
 
 namespace tendril::contact {
 namespace {
 
+constexpr double kKin = 0.5 * std::numbers::pi, kNearKin = 8.0, kRestsNear = 1.5;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::uint64_t key_of(std::uint32_t first, std::uint32_t second) {
@@ -78,31 +80,73 @@ std::map<std::uint32_t, double> ways_from(const Roads& roads, std::uint32_t star
   return reached;
 }
 
+/// The ways along rods and through joints from the ends of an edge to those of another; infinite where longer
+/// than asked for.
+struct Ways {
+  double way[2][2] = {{kInfinite, kInfinite}, {kInfinite, kInfinite}};
+};
+
+/// To the edges after e that are within the reach.
+std::map<std::uint32_t, Ways> ways_of(const RodLines& lines, const Roads& roads,
+                                      const std::vector<std::vector<std::uint32_t>>& edges_at,
+                                      std::uint32_t e, double reach) {
+  std::map<std::uint32_t, Ways> found;
+  for (const std::uint32_t end : {0u, 1u})
+    for (const auto& [node, way] : ways_from(roads, lines.edges[e].global + end, reach))
+      for (const std::uint32_t f : edges_at[node])
+        if (f > e) found[f].way[end][node - lines.edges[f].global] = way;
+  return found;
+}
+
+/// A point of an edge as it rests.
+struct Resting {
+  Vec3 x;
+  double from[2];  ///< the edge's ends, along it
+};
+
+Resting resting(const RodLines& lines, std::size_t point) {
+  const LinePoint& at = lines.points[point];
+  const LineEdge& edge = lines.edges[at.edge];
+  const Vec3 &a = lines.rods[edge.rod].rest[edge.node], &b = lines.rods[edge.rod].rest[edge.node + 1];
+  const double length = (b - a).norm();
+  return {between(a, b, at.fraction), {at.fraction * length, (1.0 - at.fraction) * length}};
+}
+
+bool are_kin(const Resting& x, const Resting& y, const Ways& ways, double meets) {
+  double way = kInfinite;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) way = std::min(way, x.from[i] + ways.way[i][j] + y.from[j]);
+  return way < kKin * meets || (way <= kNearKin * meets && (x.x - y.x).norm() < kRestsNear * meets);
+}
+
 }  // namespace
 
-Kinship::Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, double reach) {
+Kinship::Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, double most,
+                 const Meets& meets) {
   const Roads roads = roads_of(lines, joints);
   std::vector<std::vector<std::uint32_t>> edges_at(lines.nodes);
   for (std::uint32_t e = 0; e < lines.edges.size(); ++e)
     for (const std::uint32_t end : {0u, 1u}) edges_at[lines.edges[e].global + end].push_back(e);
-  for (std::uint32_t e = 0; e < lines.edges.size(); ++e) {
-    std::map<std::uint32_t, Ways> found;
-    for (const std::uint32_t end : {0u, 1u})
-      for (const auto& [node, way] : ways_from(roads, lines.edges[e].global + end, reach))
-        for (const std::uint32_t f : edges_at[node]) {
-          if (f <= e) continue;
-          const Ways none{key_of(e, f), {{kInfinite, kInfinite}, {kInfinite, kInfinite}}};
-          found.emplace(f, none).first->second.way[end][node - lines.edges[f].global] = way;
-        }
-    for (const auto& [f, ways] : found) ways_.push_back(ways);
-  }
+  for (std::uint32_t e = 0; e < lines.edges.size(); ++e)
+    for (const auto& [f, ways] : ways_of(lines, roads, edges_at, e, kNearKin * most)) {
+      const LineEdge &first = lines.edges[e], &second = lines.edges[f];
+      const std::size_t begin = kin_.size();
+      for (std::size_t i = first.first; i < first.end; ++i)
+        for (std::size_t j = second.first; j < second.end; ++j)
+          kin_.push_back(are_kin(resting(lines, i), resting(lines, j), ways, meets(e, f)));
+      const auto from = kin_.begin() + static_cast<std::ptrdiff_t>(begin);
+      const bool whole = std::find(from, kin_.end(), 0) == kin_.end();
+      const bool none = std::find(from, kin_.end(), 1) == kin_.end();
+      if (whole || none) kin_.resize(begin);
+      if (!none) edges_.push_back({key_of(e, f), whole, begin});
+    }
 }
 
-const Ways* Kinship::between(std::uint32_t first, std::uint32_t second) const {
+const Kin* Kinship::between(std::uint32_t first, std::uint32_t second) const {
   const std::uint64_t key = key_of(first, second);
-  const auto at = std::lower_bound(ways_.begin(), ways_.end(), key,
-                                   [](const Ways& w, std::uint64_t k) { return w.key < k; });
-  return at != ways_.end() && at->key == key ? &*at : nullptr;
+  const auto at = std::lower_bound(edges_.begin(), edges_.end(), key,
+                                   [](const Kin& kin, std::uint64_t k) { return kin.key < k; });
+  return at != edges_.end() && at->key == key ? &*at : nullptr;
 }
 
 }  // namespace tendril::contact

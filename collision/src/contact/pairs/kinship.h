@@ -2,29 +2,42 @@
 
 #include <tendril/contact/rod_rod_contact.h>
 
+#include <functional>
+
 #include "contact/rod_line.h"
 
 namespace tendril::contact {
 
-/// The ways along rods and through joints between the ends of two edges, at rest; infinite where longer than
-/// asked for.
-struct Ways {
-  std::uint64_t key;  ///< of the two edges
-  double way[2][2];   ///< from the first's ends to the second's
+/// Two edges near each other along the rods.
+struct Kin {
+  std::uint64_t key;  ///< of the two
+  bool whole;         ///< no points of theirs are ever in contact
+  std::size_t first;  ///< else: where it says of which
 };
 
-/// Which edges are near each other along the rods, as they rest.
+/// Which points are near each other along the rods, as they rest, so that they are no contact: their way is
+/// shorter than pi / 2 times the distance at which they meet, or shorter than eight times that and they rest
+/// nearer than one and a half.
 class Kinship {
  public:
-  /// Throws InvalidInput for joints of nodes that are not there.
-  /// \param reach  ways longer than this are not asked for
-  Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, double reach);
+  /// The distance at which points of two edges come into each other's range.
+  using Meets = std::function<double(std::uint32_t, std::uint32_t)>;
 
-  /// Null where all points of the two edges are farther apart than the reach. first < second.
-  const Ways* between(std::uint32_t first, std::uint32_t second) const;
+  /// Throws InvalidInput for joints of nodes that are not there.
+  /// \param most  largest of these distances
+  Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, double most, const Meets& meets);
+
+  /// Null where no points of the two edges are kin. first < second.
+  const Kin* between(std::uint32_t first, std::uint32_t second) const;
+  /// Of the points i and j of two edges that have some which are.
+  /// \param columns  number of points of the second edge
+  bool kin(const Kin& edges, std::size_t i, std::size_t j, std::size_t columns) const {
+    return edges.whole || kin_[edges.first + i * columns + j];
+  }
 
  private:
-  std::vector<Ways> ways_;  // by ascending key
+  std::vector<Kin> edges_;  // by ascending key
+  std::vector<char> kin_;
 };
 
 }  // namespace tendril::contact

@@ -4,15 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tendril::contact {
 namespace {
-
-constexpr double kKin =
-    0.5 * std::numbers::pi;         // ways shorter than this times the distance at which points meet
-constexpr double kNearKin = 8.0;    // and than this where they rest near each other:
-constexpr double kRestsNear = 1.5;  // nearer than this times that distance
 
 double thinnest(const std::vector<ContactRod>& rods) {
   double result = thickest(rods);
@@ -28,8 +22,11 @@ RodLines::Apart apart_for(const std::vector<ContactRod>& rods, double range) {
       [least = thinnest(rods), range](double radius) { return std::sqrt(0.125 * (least + radius) * range); };
 }
 
-double reach_of(const RodLines& lines, double range) {
-  return kNearKin * (2.5 * thickest(lines.rods) + range);
+/// Per edge: the square of the way between points.
+std::vector<double> squares(const RodLines& lines) {
+  std::vector<double> result;
+  for (const LineEdge& edge : lines.edges) result.push_back(lines.widest(edge) * lines.widest(edge));
+  return result;
 }
 
 /// Between two segments: the squared distance is convex, so that going to and fro between the nearest points
@@ -69,9 +66,10 @@ const Meeting* PairLedger::find(std::uint64_t key) const {
 PairModel::PairModel(std::vector<ContactRod> rods, const std::vector<RodJoint>& joints, const Law& how)
     : law(checked(how)),
       lines(rods, apart_for(rods, how.range)),
-      kinship(lines, joints, reach_of(lines, how.range)) {
-  for (const LineEdge& edge : lines.edges) widest2.push_back(lines.widest(edge) * lines.widest(edge));
-}
+      widest2(squares(lines)),
+      // The margin is at most range / 20, see above.
+      kinship(lines, joints, 2.0 * thickest(rods) + 1.05 * how.range,
+              [this](std::uint32_t e, std::uint32_t f) { return meets(e, f); }) {}
 
 double PairModel::weight(const PointPair& at) const {
   const LinePoint &x = lines.points[at.first], &y = lines.points[at.second];
@@ -101,27 +99,18 @@ std::shared_ptr<const NearEdges> PairModel::search(std::vector<Vec3> p, double s
 }
 
 double PairModel::slack(const std::vector<Vec3>& p, std::uint32_t e, std::uint32_t f) const {
+  const Kin* kin = kinship.between(e, f);
   const std::uint32_t a = lines.edges[e].global, c = lines.edges[f].global;
-  return distance(p[a], p[a + 1], p[c], p[c + 1]) - thick(e, f) - margin(e, f) - law.range;
-}
-
-bool PairModel::kin(const Ways& ways, std::size_t first, std::size_t second) const {
-  const LinePoint &x = lines.points[first], &y = lines.points[second];
-  const LineEdge &e = lines.edges[x.edge], &f = lines.edges[y.edge];
-  const std::vector<Vec3>&rest = lines.rods[e.rod].rest, &other = lines.rods[f.rod].rest;
-  const double of_e = (rest[e.node + 1] - rest[e.node]).norm(),
-               of_f = (other[f.node + 1] - other[f.node]).norm();
-  const double from[2] = {x.fraction * of_e, (1.0 - x.fraction) * of_e};
-  const double to[2] = {y.fraction * of_f, (1.0 - y.fraction) * of_f};
-  double way = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) way = std::min(way, from[i] + ways.way[i][j] + to[j]);
-  const double meets = thick(x.edge, y.edge) + margin(x.edge, y.edge) + law.range;
-  if (way < kKin * meets) return true;
-  if (way > kNearKin * meets) return false;
-  const Vec3 apart = between(rest[e.node], rest[e.node + 1], x.fraction) -
-                     between(other[f.node], other[f.node + 1], y.fraction);
-  return apart.norm() < kRestsNear * meets;
+  const double apart = distance(p[a], p[a + 1], p[c], p[c + 1]) - meets(e, f);
+  // Edges that share a node are near each other for ever: what counts is points that may touch.
+  if (kin == nullptr || apart > 0.0) return apart;
+  const LineEdge &first = lines.edges[e], &second = lines.edges[f];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first.first; i < first.end; ++i)
+    for (std::size_t j = second.first; j < second.end; ++j)
+      if (!kinship.kin(*kin, i - first.first, j - second.first, second.end - second.first))
+        least = std::min(least, (point(p, i) - point(p, j)).squaredNorm());
+  return std::sqrt(least) - meets(e, f);
 }
 
 bool PairModel::reachable(const std::vector<Vec3>& before, const PointPair& now) const {

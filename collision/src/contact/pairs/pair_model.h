@@ -55,6 +55,8 @@ struct PairModel {
   double margin(std::uint32_t e, std::uint32_t f) const {
     return (widest2[e] + widest2[f]) / (8.0 * thick(e, f));
   }
+  /// How far from each other points of two edges are when response begins.
+  double meets(std::uint32_t e, std::uint32_t f) const { return thick(e, f) + margin(e, f) + law.range; }
   /// The sum of two edges' radii.
   double thick(std::uint32_t e, std::uint32_t f) const {
     return lines.rods[lines.edges[e].rod].radius + lines.rods[lines.edges[f].rod].radius;
@@ -68,10 +70,9 @@ struct PairModel {
   }
   /// Edges that are nearer than response and skin.
   std::shared_ptr<const NearEdges> search(std::vector<Vec3> p, double skin) const;
-  /// The distance of two edges less that where response begins; for kin, never more than 0.
+  /// The distance of two edges less that where response begins; of edges with kin, that of points that are
+  /// none.
   double slack(const std::vector<Vec3>& p, std::uint32_t e, std::uint32_t f) const;
-  /// What is kin is no contact.
-  bool kin(const Ways& ways, std::size_t first, std::size_t second) const;
   /// Whether two points whose gap is open kept it so on the straight way from where they were.
   bool reachable(const std::vector<Vec3>& before, const PointPair& now) const;
 
@@ -100,7 +101,8 @@ bool PairModel::each_point(const std::vector<Vec3>& p, std::uint32_t e, std::uin
   const Vec3 &c = p[second.global], along = p[second.global + 1] - c;
   const double square = along.squaredNorm(), taken = thick(e, f) + margin(e, f);
   const double far = taken + law.range + pad;
-  const Ways* ways = kinship.between(e, f);
+  const Kin* kin = kinship.between(e, f);
+  const std::size_t columns = second.end - second.first;
   for (std::size_t i = first.first; i < first.end; ++i) {
     const Vec3 x = point(p, i), from = x - c;
     // Of the line, what lies within `far`: a window about the nearest point.
@@ -113,7 +115,7 @@ bool PairModel::each_point(const std::vector<Vec3>& p, std::uint32_t e, std::uin
       if (fraction < at - wide) continue;
       if (fraction > at + wide) break;
       const Vec3 apart = from - fraction * along;
-      if (ways && kin(*ways, i, j)) continue;
+      if (kin && kinship.kin(*kin, i - first.first, j - second.first, columns)) continue;
       if (!visit(PointPair{i, j, apart, apart.norm() - taken})) return false;
     }
   }
