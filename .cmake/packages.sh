@@ -6,7 +6,7 @@ bind_packages=(libcgal-dev)
 test_packages=(libgtest-dev libopenmesh-dev libboost-dev libgmp-dev doxygen)
 scene_packages=(nlohmann-json3-dev libvalijson-dev)
 # What the collision accuracy suite compares with, where it is found.
-accuracy_packages=(pkg-config libfcl-dev libccd-dev libgts-dev)
+accuracy_packages=(pkg-config libfcl-dev libccd-dev libgts-dev libbullet-dev libode-dev)
 runner_packages=("${scene_packages[@]}" libcli11-dev libembree-dev libpng-dev)
 
 as_root() {

@@ -35,7 +35,7 @@ struct Adapter {
   bool proper = false;  ///< asks for triangles with an area and segments with a length
   Said (*triangles)(const Corners&, const Corners&) = nullptr;
   Said (*segment)(const Corners&, const Ends&) = nullptr;
-  double (*distance)(const Corners&, const Corners&) = nullptr;
+  double (*distance)(const Corners&, const Corners&) = nullptr;  ///< NaN where it cannot say
   std::unique_ptr<MeshPeer> (*mesh)(Points, Triangles) = nullptr;
   bool holds = false, meets = false;  ///< which questions its meshes answer
   Said (*straight)(collision::Features, const collision::Paths<1>&) = nullptr;

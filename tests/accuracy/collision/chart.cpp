@@ -1,12 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "accuracy/collision/suite.h"
 #include "study/svg.h"
 
-// Error against run time: a panel a section, a mark a family and library. Across, CPU time a query; up, the
-// share of wrong answers, with a line of its own for none at all. Hollow marks: some queries were left
-// undecided, and as many parts of a ring are drawn as parts of the queries were.
+// Error against run time: a panel a section, marks a family and library. Across, CPU time a query; up, the
+// share of wrong answers, with a line of its own for none at all.
 namespace tendril::suite {
 namespace {
 
@@ -16,9 +16,13 @@ constexpr double kWidth = 300, kHeight = 220, kLeft = 70, kTop = 64, kGapX = 84,
 constexpr int kAcross = 3;
 constexpr double kNone = -7.0;  ///< decade that stands for no wrong answer
 
-double share_of(const Row& row) {
-  const double wrong = static_cast<double>(row.missed + row.invented + row.wrong);
-  return wrong > 0 ? std::log10(wrong / static_cast<double>(row.queries)) : kNone;
+/// More than svg.h has: as many libraries as there are.
+constexpr std::array kMany{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#8c6d1f",
+                           "#555555", "#000000", "#e69f00", "#332288", "#882255", "#117733"};
+
+double decade_of(long wrong, const Row& row) {
+  if (wrong == 0) return kNone;
+  return std::max(kNone, std::log10(static_cast<double>(wrong) / static_cast<double>(row.queries)));
 }
 
 struct Panel {
@@ -40,13 +44,36 @@ std::string grid(const Panel& panel, const std::string& title) {
   return out + words(0.5 * (panel.x.from + panel.x.to), panel.y.from + 32, "middle", "us a query");
 }
 
-/// Marks of families with as many wrong answers stand beside each other where their times do, so they are
-/// small.
+std::string corners_of(const std::vector<std::array<double, 2>>& corners, const char* colour) {
+  std::string points;
+  for (const auto& [x, y] : corners) points += corner(x, y);
+  return Element("polygon").with("points", points).with("fill", colour).end();
+}
+
+/// Missed: a triangle that points down; invented: up; wrong in another respect: a square; nothing of it: a
+/// disc, of which as much is white as was left undecided.
 std::string mark(const Panel& panel, const Row& row, const char* colour) {
-  const double x = panel.x(std::log10(std::max(row.us, 1e-3))), y = panel.y(std::max(share_of(row), kNone));
-  const double part = static_cast<double>(row.undecided) / static_cast<double>(std::max(1L, row.queries));
-  std::string out = circle(x, y, 4.5, part > 0 ? "#ffffff" : colour, colour);
-  if (part > 0) out += circle(x, y, 4.5 * std::sqrt(1.0 - std::min(1.0, part)), colour);
+  constexpr double r = 5.0;
+  const double x = panel.x(std::log10(std::max(row.us, 1e-3)));
+  std::string out;
+  if (row.missed > 0) {
+    const double y = panel.y(decade_of(row.missed, row));
+    out += corners_of({{x - r, y - 0.6 * r}, {x + r, y - 0.6 * r}, {x, y + r}}, colour);
+  }
+  if (row.invented > 0) {
+    const double y = panel.y(decade_of(row.invented, row));
+    out += corners_of({{x - r, y + 0.6 * r}, {x + r, y + 0.6 * r}, {x, y - r}}, colour);
+  }
+  if (row.wrong > 0) {
+    const double y = panel.y(decade_of(row.wrong, row)), h = 0.8 * r;
+    out += corners_of({{x - h, y - h}, {x + h, y - h}, {x + h, y + h}, {x - h, y + h}}, colour);
+  }
+  if (!out.empty()) return out;
+  const double y = panel.y(kNone);
+  const double left =
+      1.0 - static_cast<double>(row.undecided) / static_cast<double>(std::max(1L, row.queries));
+  out = circle(x, y, r, left < 1.0 ? "#ffffff" : colour, colour);
+  if (left > 0.0 && left < 1.0) out += circle(x, y, r * std::sqrt(left), colour);
   return out;
 }
 
@@ -80,13 +107,15 @@ std::string to_svg(const std::vector<Row>& rows) {
   const std::vector<std::string> sections = distinct(rows, &Row::section), peers = distinct(rows, &Row::peer);
   const auto colour = [&](const std::string& peer) {
     const auto at = std::find(peers.begin(), peers.end(), peer) - peers.begin();
-    return kColours[static_cast<std::size_t>(at) % kColours.size()];
+    return kMany[static_cast<std::size_t>(at) % kMany.size()];
   };
   std::string body =
       words(kLeft, 30, "start", "Collision tests: share of wrong answers against run time", "head");
-  body +=
-      words(kLeft, 50, "start",
-            "a mark a family of queries; partly white: so many were left undecided, or not asked", "small");
+  body += words(kLeft, 50, "start",
+                "a mark a family of queries; pointing down: missed, up: invented, square: wrong in another "
+                "respect, disc: "
+                "none of these, white as far as queries were left undecided or not asked",
+                "small");
   for (std::size_t s = 0; s < sections.size(); ++s) {
     const Panel panel = panel_at(static_cast<int>(s), rows, sections[s]);
     body += grid(panel, sections[s]);

@@ -141,19 +141,21 @@ Row judge_distances(const Adapter& adapter, const PairFamily& family, const std:
   std::vector<char> fit(pairs.size(), 1);
   if (adapter.proper)
     for (std::size_t i = 0; i < pairs.size(); ++i) fit[i] = proper(pairs[i].a) && proper(pairs[i].b);
+  const long asked = std::count(fit.begin(), fit.end(), 1);
   const double seconds = bench::fastest(pairs.size() < 20000 ? 5 : 1, [&] {
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (fit[i]) said[i] = adapter.distance(pairs[i].a, pairs[i].b);
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     row.positive += squares[i] == 0;
-    row.undecided += !fit[i];
-    if (!fit[i]) continue;
+    const bool answered = fit[i] && !std::isnan(said[i]);
+    row.undecided += !answered;
+    if (!answered) continue;
     count_distance(said[i], std::sqrt(squares[i].convert_to<double>()), size_of(pairs[i]), row);
     if (row.own()) row.wrong += !bounds_hold(pairs[i], squares[i]);
   }
   row.queries = static_cast<long>(pairs.size());
-  row.us = 1e6 * seconds / static_cast<double>(std::max<long>(1, row.queries - row.undecided));
+  row.us = 1e6 * seconds / static_cast<double>(std::max(1L, asked));
   return row;
 }
 
