@@ -1,5 +1,5 @@
 # One way of using tendril from outside, from an empty folder to a program that ran:
-#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|core_only|refused> [-DCOMPONENTS=... -DEXPECTED=...]
+#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|core_only|refused> [-DCOMPONENTS=... -DEXPECTED=...]
 #         -DWORK=<folder> -DPREFIX=<folder> -P consumer.cmake
 # CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, NM, READELF, VERSION, and COMMON (compiler, flags, build
 # type).
@@ -101,6 +101,27 @@ elseif(CASE STREQUAL "shared")
 elseif(CASE STREQUAL "subdirectory")
   configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF)
   run_consumers(core)
+elseif(CASE STREQUAL "method")
+  file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/.cmake ${SOURCE}/lib ${SOURCE}/bind DESTINATION ${WORK}/tree)
+  set(folder ${WORK}/tree/lib/src/dynamics/methods)
+  set(scenes ${SOURCE}/examples/scenes)
+  set(build -DTENDRIL_SOURCE=${WORK}/tree -DTREE=${SOURCE})
+  # A file more where nothing is configured anew by hand.
+  run(${CMAKE_COMMAND} -S ${here}/method -B ${WORK}/build -G Ninja ${COMMON} ${build})
+  file(COPY ${here}/method/heun.cpp DESTINATION ${folder})
+  run(${CMAKE_COMMAND} --build ${WORK}/build)
+  execute_process(COMMAND ${WORK}/build/method_test RESULT_VARIABLE code OUTPUT_VARIABLE text)
+  if(NOT code EQUAL 0 OR NOT text MATCHES "OK [^\n]*HasItsOrderOnAnOscillation/heun")
+    message(FATAL_ERROR "the tests of the table ended with ${code}: ${text}")
+  endif()
+  file(READ ${scenes}/cantilever.json scene)
+  string(REPLACE "\"tolerance\": 1e-5" "\"method\": \"heun\", \"fixed_step\": 1e-4" scene "${scene}")
+  file(WRITE ${WORK}/heun.json "${scene}")
+  execute_process(COMMAND ${WORK}/build/run_scene ${WORK}/heun.json RESULT_VARIABLE code OUTPUT_VARIABLE text
+    ERROR_VARIABLE text)
+  if(NOT code EQUAL 0 OR NOT text MATCHES "finished: 5000 steps\n$")
+    message(FATAL_ERROR "the scene ended with ${code}: ${text}")
+  endif()
 elseif(CASE STREQUAL "core_only")
   file(REMOVE_RECURSE ${PREFIX})
   configure_and_build(${SOURCE} -DTENDRIL_BIND=OFF -DTENDRIL_EXACT=OFF -DTENDRIL_TESTS=OFF -DTENDRIL_EXAMPLES=OFF

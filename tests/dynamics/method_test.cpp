@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tendril/base/error.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/method.h>
 
@@ -140,6 +141,21 @@ TEST(Methods, AreFoundByNamesOfTheirOwn) {
     EXPECT_EQ(&info(row.method), find_method(row.name));
   }
   EXPECT_EQ(find_method("leapfrog"), nullptr);
+}
+
+TEST(Methods, HaveTheNumbersOfTheEnumeration) {
+  EXPECT_STREQ(to_string(Method::cash_karp), "cash_karp");
+  EXPECT_STREQ(to_string(Method::rodas), "rodas");
+  EXPECT_STREQ(to_string(Method::automatic), "automatic");
+  EXPECT_STREQ(to_string(Method::verlet), "verlet");
+  EXPECT_STREQ(to_string(Method::runge_kutta4), "runge_kutta4");
+  EXPECT_STREQ(to_string(Method::explicit_euler), "explicit_euler");
+  EXPECT_STREQ(to_string(Method::backward_euler), "backward_euler");
+}
+
+TEST(Methods, OfOtherNumbersAreRefused) {
+  EXPECT_THROW(info(static_cast<Method>(methods().size())), InvalidInput);
+  EXPECT_THROW(info(static_cast<Method>(-1)), InvalidInput);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 
 namespace tendril {
 
-/// The methods a run can be told to use.
+/// The methods a run can be told to use. Others have numbers beyond these, which the table below gives them:
+/// find_method(name)->method.
 enum class Method {
   cash_karp,       ///< cash_karp.h, its steps chosen
   rodas,           ///< rodas.h, its steps chosen
@@ -44,10 +45,11 @@ struct MethodInfo {
   std::unique_ptr<Stepper> (*make)(const System& system);  ///< the system is kept by reference
 };
 
-/// The table, a row per method in the order of the enumeration. A new method of the library is a stepper, an
-/// enumerator above and its row; whoever offers methods to choose from goes through the rows.
+/// The table, a row per method: those of the enumeration in its order, then the others by name. A new method
+/// of the library is one file beside those in lib/src/dynamics/methods; whoever offers methods to choose from
+/// goes through the rows.
 TENDRIL_CORE_API std::span<const MethodInfo> methods();
-/// The row of a method.
+/// The row of a method. Throws InvalidInput where no row has that number.
 TENDRIL_CORE_API const MethodInfo& info(Method method);
 /// The row of that name; nullptr where none has it.
 TENDRIL_CORE_API const MethodInfo* find_method(std::string_view name);
