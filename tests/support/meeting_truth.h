@@ -99,9 +99,33 @@ struct RootOf {
   Ratio low, high;
 };
 
+inline Ratio value_at(const Power& p, const Ratio& t) {
+  Ratio value = 0;
+  for (auto c = p.rbegin(); c != p.rend(); ++c) value = value * t + *c;
+  return value;
+}
+
+/// The sign of q at a root that changes p's sign, where q is farther from 0 near it than its slope allows it
+/// to go to 0 within the bracket, halved some times; else 0.
+inline int clear_sign_at(const Power& q, RootOf root) {
+  const int low = sign_at(*root.p, root.low);
+  if (low * sign_at(*root.p, root.high) >= 0) return 0;
+  for (int halving = 0; halving < 40; ++halving) {
+    const Ratio middle = (root.low + root.high) / 2;
+    const int sign = sign_at(*root.p, middle);
+    if (sign == 0) return sign_at(q, middle);
+    (low * sign < 0 ? root.high : root.low) = middle;
+  }
+  Whole steepest = 0;  // of q' on [0, 1]
+  for (const Whole& c : slope(q)) steepest += abs(c);
+  const Ratio value = value_at(q, root.low);
+  return abs(value) > steepest * (root.high - root.low) ? value.sign() : 0;
+}
+
 inline int sign_at(const Power& q, const RootOf& root) {
   if (root.low == root.high) return sign_at(q, root.low);
   if (q.empty()) return 0;
+  if (const int sign = clear_sign_at(q, root)) return sign;
   const auto sequence = sequence_of(*root.p, product(slope(*root.p), q));
   return changes_at(sequence, root.low) - changes_at(sequence, root.high);
 }
@@ -121,8 +145,11 @@ class Roots {
   void narrow(RootOf& root) const {
     if (root.low == root.high) return;
     const Ratio middle = (root.low + root.high) / 2;
-    if (sign_at(p_, middle) == 0)
+    const int sign = sign_at(p_, middle), low = sign_at(p_, root.low);
+    if (sign == 0)
       root.low = root.high = middle;
+    else if (low * sign_at(p_, root.high) < 0)  // the only root between them changes the sign
+      (low * sign < 0 ? root.high : root.low) = middle;
     else
       (changes_at(sturm_, root.low) != changes_at(sturm_, middle) ? root.high : root.low) = middle;
   }
