@@ -11,6 +11,7 @@ std::vector<Section> sections() {
           {"straight", "vertices, faces and edges that move straight", straight_section},
           {"cubic", "the same on cubics", cubic_section},
           {"bound", "meshes that follow curve-pairs", bound_section},
+          {"posed", "the same handed over in every pose", posed_section},
           {"hostile", "numbers that wish no good", hostile_section}};
 }
 

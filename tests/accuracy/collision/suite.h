@@ -49,6 +49,7 @@ void balls_section(const Settings& settings, std::vector<Row>& rows);
 void straight_section(const Settings& settings, std::vector<Row>& rows);
 void cubic_section(const Settings& settings, std::vector<Row>& rows);
 void bound_section(const Settings& settings, std::vector<Row>& rows);
+void posed_section(const Settings& settings, std::vector<Row>& rows);
 void hostile_section(const Settings& settings, std::vector<Row>& rows);
 
 /// As a table under headings; the JSON that collision/ACCURACY.md describes; the picture.
