@@ -28,6 +28,7 @@ struct Moving {
   Paths<Degree> paths;
   bool meets;
   std::optional<MeetingTruth> when;
+  std::string kind;  ///< of what was made up
 };
 
 template <int Degree>
@@ -65,6 +66,14 @@ const char* word(Features features) {
   return features == Features::edge_edge ? "edge-edge" : "vertex-face";
 }
 
+/// Anywhere and as in a mesh's step; facing each other and meeting or missing by little; touching at an end,
+/// on whole numbers, in one plane, on one line, with coinciding corners.
+std::string group_of(const std::string& kind) {
+  if (kind == "anywhere" || kind == "smooth") return "generic";
+  if (kind == "parabolas" || kind == "near miss") return "grazing";
+  return "special";
+}
+
 template <int Degree>
 MovingList<Degree> made(Features features, const Settings& settings) {
   test::QueryMaker<Degree> maker(settings.seed * 16 + 2 * Degree + (features == Features::edge_edge));
@@ -72,7 +81,7 @@ MovingList<Degree> made(Features features, const Settings& settings) {
   for (long i = 0; i < settings.count; ++i) {
     const auto q = maker.make(features, static_cast<int>(i));
     const MeetingTruth truth = test::MeetingOracle<Degree>(features, q.paths).truth();
-    out.push_back({features, q.paths, truth.meets, truth});
+    out.push_back({features, q.paths, truth.meets, truth, group_of(q.kind)});
   }
   return out;
 }
@@ -113,9 +122,22 @@ MovingList<1> public_queries(const std::string& folder, Features features) {
     const bool edges = file.string().find("edge-edge") != std::string::npos;
     if (edges != (features == Features::edge_edge)) continue;
     for (const auto& q : collision::read_queries<1>(read_file(file.string()), file.string()))
-      out.push_back({features, q.paths, q.meets, {}});
+      out.push_back({features, q.paths, q.meets, {}, "public"});
   }
   return out;
+}
+
+/// A row for each group that there is.
+template <int Degree, class Ask>
+void judge_groups(const char* section, Features features, const MovingList<Degree>& list, const Ask& ask_of,
+                  std::vector<Row>& rows) {
+  for (const char* group : {"generic", "grazing", "special", "public"}) {
+    MovingList<Degree> its;
+    for (const Moving<Degree>& q : list)
+      if (q.kind == group) its.push_back(q);
+    if (!its.empty())
+      judge_all<Degree>(section, std::string(group) + " " + word(features), its, ask_of, rows);
+  }
 }
 
 constexpr Features kFeatures[] = {Features::vertex_face, Features::edge_edge};
@@ -126,19 +148,18 @@ void straight_section(const Settings& settings, std::vector<Row>& rows) {
   for (const Features features : kFeatures) {
     const auto ask = [](const Adapter& a) { return a.straight; };
     const MovingList<1> list = made<1>(features, settings);
-    judge_all<1>("straight", std::string("made ") + word(features), list, ask, rows);
+    judge_groups<1>("straight", features, list, ask, rows);
     write_csv<1>(settings.csv, "straight", features, list);
     if (settings.data.empty()) continue;
-    const MovingList<1> known = public_queries(settings.data, features);
-    if (!known.empty()) judge_all<1>("straight", std::string("public ") + word(features), known, ask, rows);
+    judge_groups<1>("straight", features, public_queries(settings.data, features), ask, rows);
   }
 }
 
 void cubic_section(const Settings& settings, std::vector<Row>& rows) {
   for (const Features features : kFeatures) {
     const MovingList<3> list = made<3>(features, settings);
-    judge_all<3>(
-        "cubic", std::string("made ") + word(features), list, [](const Adapter& a) { return a.cubic; }, rows);
+    judge_groups<3>(
+        "cubic", features, list, [](const Adapter& a) { return a.cubic; }, rows);
     write_csv<3>(settings.csv, "cubic", features, list);
   }
 }
