@@ -119,7 +119,7 @@ TEST(BindingPoints, PlaceGroupsAsAnUpdateDoes) {
   options.mode = BindMode::continuous;
   const std::vector<CurvePair> rest{line({0.05, 0, 0}, {0.45, 0, 0}), line({0.55, 0, 0}, {0.95, 0, 0})};
   const Binding binding(rest, ring(), options);
-  ASSERT_GT(binding.report().places, binding.size());
+  ASSERT_GT(binding.report().shares, binding.size());
   const BindingPoints points(binding);
   Random random(2);
   std::vector<std::uint32_t> begin{0}, members;
@@ -148,16 +148,16 @@ TEST(BindingPoints, TellTheirPlaces) {
   const std::vector<CurvePair> rest{line({0.05, 0, 0}, {0.45, 0, 0}), line({0.55, 0, 0}, {0.95, 0, 0})};
   const Binding binding(rest, ring(), options);
   const BindingPoints points(binding);
-  std::vector<BoundPlace> places;
+  std::vector<BoundShare> found;
   for (std::size_t i = 0; i < binding.size(); ++i) {
-    points.places(i, places);
+    points.shares(i, found);
     const std::vector<Share> shares = binding.shares(i);
-    ASSERT_EQ(places.size(), shares.size());
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      EXPECT_EQ(places[k].pair, shares[k].pair);
-      EXPECT_EQ(places[k].weight, shares[k].weight);
-      EXPECT_EQ(places[k].record.t, shares[k].record.t);
-      EXPECT_EQ(places[k].record.u, shares[k].record.u);
+    ASSERT_EQ(found.size(), shares.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_EQ(found[k].pair, shares[k].pair);
+      EXPECT_EQ(found[k].weight, shares[k].weight);
+      EXPECT_EQ(found[k].record.t, shares[k].record.t);
+      EXPECT_EQ(found[k].record.u, shares[k].record.u);
     }
   }
 }
@@ -171,8 +171,8 @@ TEST(BindingPoints, RefuseBadInput) {
   EXPECT_THROW(points.group(List{0, 2}, List{1}), InvalidInput);
   EXPECT_THROW(points.group(List{0, 2, 1, 2}, List{1, 1}), InvalidInput);
   EXPECT_THROW(points.group(List{}, List{}), InvalidInput);
-  std::vector<BoundPlace> out;
-  EXPECT_THROW(points.places(3, out), InvalidInput);
+  std::vector<BoundShare> out;
+  EXPECT_THROW(points.shares(3, out), InvalidInput);
   EXPECT_THROW(points.group(List{0, 1}, List{1})->pose({}), InvalidInput);
 }
 

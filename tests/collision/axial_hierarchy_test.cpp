@@ -152,13 +152,13 @@ TEST(AxialHierarchy, BoxesHoldALeaf) {
 
 TEST(AxialHierarchy, BoxesHoldPointsOfSeveralCurvePairs) {
   const BoundMesh mesh = bound_to_three();
-  ASSERT_GT(mesh.binding.report().places, mesh.binding.size() + 100);
+  ASSERT_GT(mesh.binding.report().shares, mesh.binding.size() + 100);
   hold(mesh, 3);
 }
 
 TEST(AxialHierarchy, BoxesHoldPointsWithPlacesFarApart) {
   const BoundMesh mesh = bound_in_a_bow();
-  ASSERT_GT(mesh.binding.report().places, mesh.binding.size() + 100);
+  ASSERT_GT(mesh.binding.report().shares, mesh.binding.size() + 100);
   hold(mesh, 4);
 }
 

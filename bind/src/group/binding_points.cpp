@@ -108,7 +108,7 @@ class Groups : public PointGroups {
 
 }  // namespace
 
-void BindingPoints::places(std::size_t point, std::vector<BoundPlace>& out) const {
+void BindingPoints::shares(std::size_t point, std::vector<BoundShare>& out) const {
   const BindingLayout& layout = *binding_.layout_;
   layout.require_point(point);
   const BindingLayout::Blend* blend = layout.blend_of(point);

@@ -127,7 +127,7 @@ Binding::Binding(const CurvePair& rest, Points points, int threads) {
   layout->arrange(kInPlane * bounding_diagonal(points));
   layout_ = std::move(layout);
   inspect({&rest, 1}, points, threads, *this, found, report_);
-  report_.places = layout_->entries.size();
+  report_.shares = layout_->entries.size();
 }
 
 Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options) {
@@ -147,7 +147,7 @@ Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const
   layout->arrange(kInPlane * bounding_diagonal(mesh.points));
   layout_ = std::move(layout);
   inspect(rest, mesh.points, options.threads, *this, found, report_);
-  report_.places = layout_->entries.size();
+  report_.shares = layout_->entries.size();
 }
 
 std::size_t Binding::size() const {

@@ -24,7 +24,7 @@ struct Options {
 
 OrderedJson to_json(const bind::BindReport& report) {
   return {{"rest_error", report.rest_error}, {"largest_gap", report.largest_gap},
-          {"places", report.places},         {"beyond_ends", report.beyond_ends},
+          {"shares", report.shares},         {"beyond_ends", report.beyond_ends},
           {"clusters", report.clusters},     {"ambiguous", report.ambiguous},
           {"gated", report.gated},           {"past_focus", report.past_focus},
           {"degenerate", report.degenerate}};
@@ -129,9 +129,9 @@ int judge(const Options& options) {
   OrderedJson out{
       {"mesh", options.mesh}, {"points", mesh.points.size()}, {"binding", to_json(binding.report())}};
   if (!options.json)
-    std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu places, rest error %.1e\n",
+    std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu shares, rest error %.1e\n",
                 options.mesh.c_str(), mesh.points.size(), binding.report().ambiguous.size(),
-                binding.report().gated.size(), binding.report().places, binding.report().rest_error);
+                binding.report().gated.size(), binding.report().shares, binding.report().rest_error);
   bind::TearVerdict verdict = bind::TearVerdict::smooth;
   if (axes.posed.empty()) {
     if (!options.picture.empty()) draw_bound(options, mesh, binding, axes, threads);

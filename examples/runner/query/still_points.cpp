@@ -32,8 +32,8 @@ StillPoints::StillPoints(const bind::Binding& binding, std::span<const std::size
   for (const std::size_t i : still) still_.emplace(i, at[i]);
 }
 
-void StillPoints::places(std::size_t point, std::vector<BoundPlace>& out) const {
-  points_.places(point, out);
+void StillPoints::shares(std::size_t point, std::vector<BoundShare>& out) const {
+  points_.shares(point, out);
   if (still_.count(point) == 0) return;
   const auto its_own = static_cast<std::uint32_t>(binding_.pair_count()) + binding_.pair_of(point);
   out.assign(1, {its_own, 1.0, binding_.records()[point]});

@@ -15,7 +15,7 @@ class StillPoints : public BoundPoints {
   StillPoints(const bind::Binding& binding, std::span<const std::size_t> still, Points at);
 
   std::size_t size() const override { return points_.size(); }
-  void places(std::size_t point, std::vector<BoundPlace>& out) const override;
+  void shares(std::size_t point, std::vector<BoundShare>& out) const override;
   std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,
                                      std::span<const std::uint32_t> points) const override;
 

@@ -61,7 +61,7 @@ struct BindReport {
   /// Number of points with a LocalMinimum::cluster among their projections.
   std::size_t clusters = 0;
   /// Number of shares, over all points.
-  std::size_t places = 0;
+  std::size_t shares = 0;
 };
 
 }  // namespace tendril::bind

@@ -21,7 +21,7 @@ class TENDRIL_BIND_API BindingPoints : public BoundPoints {
   explicit BindingPoints(Binding binding) : binding_(std::move(binding)) {}
 
   std::size_t size() const override { return binding_.size(); }
-  void places(std::size_t point, std::vector<BoundPlace>& out) const override;
+  void shares(std::size_t point, std::vector<BoundShare>& out) const override;
   /// InvalidInput for a point that there is not, or beginnings that are not ascending from 0 to the number of
   /// points.
   std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,

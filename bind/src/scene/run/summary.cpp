@@ -21,7 +21,7 @@ OrderedJson to_json(const bind::BindReport& report, std::size_t points, std::siz
           {"beyond_ends", report.beyond_ends},
           {"ambiguous", report.ambiguous.size()},
           {"gated", report.gated.size()},
-          {"places", report.places},
+          {"shares", report.shares},
           {"past_focus", report.past_focus.size()},
           {"degenerate", report.degenerate.size()}};
 }

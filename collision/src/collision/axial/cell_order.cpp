@@ -20,11 +20,11 @@ std::vector<Key> keys_of_points(std::span<const CurvePair> rest, const BoundPoin
   std::vector<double> scale;
   for (const CurvePair& pair : rest) scale.push_back(length_per_parameter(pair));
   std::vector<Key> keys(points.size());
-  std::vector<BoundPlace> places;
+  std::vector<BoundShare> shares;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    points.places(i, places);
-    const AxialPoint& at = places.front().record;
-    keys[i] = {static_cast<float>(places.front().pair), static_cast<float>(at.t * scale[places.front().pair]),
+    points.shares(i, shares);
+    const AxialPoint& at = shares.front().record;
+    keys[i] = {static_cast<float>(shares.front().pair), static_cast<float>(at.t * scale[shares.front().pair]),
                static_cast<float>(at.u), static_cast<float>(at.v), static_cast<float>(at.w)};
   }
   return keys;

@@ -59,11 +59,11 @@ struct PlacedCells::Lazy {
   Patches patches_of(std::size_t cell, const CellPoints& cells, const BoundPoints& points) {
     Patches out;
     for (std::size_t i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i) {
-      points.places(cells.points[i], places);
-      for (const BoundPlace& place : places) {
-        const AxialPoint& at = place.record;
-        const std::uint32_t slab = slabs.slab_of(place.pair, at.t);
-        out.push_back({place.pair, slab, slab, Vec3(at.u, at.v, std::min(at.w, 0.0)),
+      points.shares(cells.points[i], shares);
+      for (const BoundShare& share : shares) {
+        const AxialPoint& at = share.record;
+        const std::uint32_t slab = slabs.slab_of(share.pair, at.t);
+        out.push_back({share.pair, slab, slab, Vec3(at.u, at.v, std::min(at.w, 0.0)),
                        Vec3(at.u, at.v, std::max(at.w, 0.0))});
       }
     }
@@ -99,7 +99,7 @@ struct PlacedCells::Lazy {
   std::vector<std::vector<Bounded>> of_node;
   std::vector<std::uint32_t> patch_begin;
   std::vector<Bounded> patches;
-  std::vector<BoundPlace> places;
+  std::vector<BoundShare> shares;
   std::unique_ptr<PointGroups> groups;
   std::vector<std::uint32_t> placed_at, touched_at;  ///< frames, of each cell
   bool refit_due = false;                            ///< the pose before had all of it touched

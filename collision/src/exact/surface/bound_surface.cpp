@@ -29,12 +29,12 @@ void check(std::span<const CurvePair> pairs) {
                              "coordinates of at most 2^200");
 }
 
-using Places = std::vector<double>;
+using Coordinates = std::vector<double>;
 
-Places places_of(const BoundPoints& points, std::size_t i, std::vector<BoundPlace>& place) {
-  points.places(i, place);
-  Places out;
-  for (const BoundPlace& p : place)
+Coordinates coordinates_of(const BoundPoints& points, std::size_t i, std::vector<BoundShare>& shares) {
+  points.shares(i, shares);
+  Coordinates out;
+  for (const BoundShare& p : shares)
     out.insert(out.end(),
                {static_cast<double>(p.pair), p.weight, p.record.t, p.record.u, p.record.v, p.record.w});
   return out;
@@ -44,9 +44,9 @@ Places places_of(const BoundPoints& points, std::size_t i, std::vector<BoundPlac
 /// in every pose.
 std::vector<std::uint32_t> with_alike_as_one(const BoundPoints& points,
                                              std::span<const std::uint32_t> corners) {
-  std::vector<BoundPlace> place;
-  std::vector<Places> all;
-  for (std::size_t i = 0; i < points.size(); ++i) all.push_back(places_of(points, i, place));
+  std::vector<BoundShare> shares;
+  std::vector<Coordinates> all;
+  for (std::size_t i = 0; i < points.size(); ++i) all.push_back(coordinates_of(points, i, shares));
   std::vector<std::uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return all[a] < all[b]; });

@@ -10,8 +10,8 @@
 
 namespace tendril {
 
-/// One of the places that a point is bound to.
-struct BoundPlace {
+/// What a point takes from one curve-pair: of a skinned vertex, an influence.
+struct BoundShare {
   std::uint32_t pair;  ///< index of the curve-pair
   double weight;       ///< at least 0
   AxialPoint record;   ///< the point's coordinates there
@@ -33,10 +33,10 @@ class TENDRIL_CORE_API PointGroups {
   virtual void place(std::size_t group, MutablePoints out) const = 0;
 };
 
-/// Points bound to curve-pairs. A point is p_0 + sum_k w_k (p_k - p_0) over its places k = 1, 2, ..., the w_k
+/// Points bound to curve-pairs. A point is p_0 + sum_k w_k (p_k - p_0) over its shares k = 1, 2, ..., the w_k
 /// at least 0 and their sum at most 1 up to rounding; p_k = c(t) + u l_x + v l_y + w l_z.
 ///
-/// What an implementation promises, and a bound on positions rests on. For a place in a span of the knots
+/// What an implementation promises, and a bound on positions rests on. For a share in a span of the knots
 /// (that of KnotVector::span) whose control points U_i of c and V_i of c_D are at most M from the origin, the
 /// computed p differs from that of exact arithmetic by at most
 ///   2^-36 M + 2^-36 M (|u| + |v| + |w|) ((1 + |n| / n') / |dc/ds| + 1 / n'),
@@ -49,8 +49,8 @@ class TENDRIL_CORE_API BoundPoints {
   virtual ~BoundPoints() = default;
 
   virtual std::size_t size() const = 0;  ///< number of points
-  /// The places of a point, p_0 first; `out` is overwritten.
-  virtual void places(std::size_t point, std::vector<BoundPlace>& out) const = 0;
+  /// The shares of a point, p_0 first; `out` is overwritten.
+  virtual void shares(std::size_t point, std::vector<BoundShare>& out) const = 0;
 
   /// Points in groups: group g are the points[begin[g], begin[g + 1]); a point may be in several.
   virtual std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,

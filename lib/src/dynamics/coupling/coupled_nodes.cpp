@@ -6,8 +6,8 @@ namespace tendril {
 namespace {
 
 /// The nodes whose positions a node's position and frame follow from, and on which its force and torque act:
-/// itself and its neighbours; those of what it rides on, too. The place and the turn of a body follow from
-/// nothing else.
+/// itself and its neighbours; those of what it is attached to, too. The place and the turn of a body follow
+/// from nothing else.
 std::vector<std::size_t> behind(const Model& model, std::size_t node) {
   if (node >= model.nodes) return {node};
   std::vector<std::size_t> nodes;

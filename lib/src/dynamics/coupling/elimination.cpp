@@ -9,20 +9,20 @@
 namespace tendril {
 namespace {
 
-/// The nodes of a rod: from its tip to its root where it rides on another, else from both ends to the middle.
+/// The nodes of a rod: from its tip to its root where it has a parent, else from both ends to the middle.
 std::vector<std::size_t> inwards(const Model& model, std::size_t rod) {
   const NodeRange& nodes = model.rods[rod];
   std::vector<std::size_t> order;
   for (std::size_t low = nodes.first, high = nodes.first + nodes.count; low < high;) {
     order.push_back(--high);
-    if (low < high && !model.ride_of(rod)) order.push_back(low++);
+    if (low < high && !model.attachment_of(rod)) order.push_back(low++);
   }
   return order;
 }
 
 bool rides_on(const Model& model, std::size_t child, std::size_t parent) {
-  const Model::Ride* ride = model.ride_of(child);
-  return ride && ride->parent - model.rods[parent].first < model.rods[parent].count;
+  const Model::Attachment* attached = model.attachment_of(child);
+  return attached && attached->parent - model.rods[parent].first < model.rods[parent].count;
 }
 
 /// Children before their parents, each from its tips; bodies last. Elimination is a chain of steps that each

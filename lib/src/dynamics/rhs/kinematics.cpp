@@ -155,23 +155,23 @@ void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Kinematic
     kin.p.set(i, kin.pose[a].position);
     kin.v.set(i, kin.pose[a].velocity);
   }
-  for (const Model::Ride& ride : model.rides) {
-    kin.p.set(ride.root, kin.p[ride.parent]);
-    kin.v.set(ride.root, kin.v[ride.parent]);
+  for (const Model::Attachment& attached : model.attachments) {
+    kin.p.set(attached.root, kin.p[attached.parent]);
+    kin.v.set(attached.root, kin.v[attached.parent]);
   }
 }
 
-/// The root of a child rod takes its frame from the node it rides on, which is known by then.
-void take_ride(const Model::Ride& ride, bool rates, Kinematics& kin) {
-  const std::size_t i = ride.root;
-  const Frame f = kin.frame[ride.parent];
+/// The root of a child rod takes its frame from the node it is attached to, which is known by then.
+void take_attachment(const Model::Attachment& attached, bool rates, Kinematics& kin) {
+  const std::size_t i = attached.root;
+  const Frame f = kin.frame[attached.parent];
   const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
-  const Frame frame{outside(ride.rest.x), outside(ride.rest.y), outside(ride.rest.z)};
+  const Frame frame{outside(attached.rest.x), outside(attached.rest.y), outside(attached.rest.z)};
   kin.frame.set(i, frame);
   kin.inverse_bisector[i] = 0.0;
   kin.rate.connection[i] = 0.0;
   if (!rates) return;
-  const Vec3 turning = Vec3(kin.rate.turning[ride.parent]) + kin.spin[ride.parent] * f.z;
+  const Vec3 turning = Vec3(kin.rate.turning[attached.parent]) + kin.spin[attached.parent] * f.z;
   kin.spin[i] = turning.dot(frame.z);
   kin.rate.turning.set(i, turning - kin.spin[i] * frame.z);
 }
@@ -242,7 +242,8 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
     if (const Evaluation at = find_bad_tangent(model, reference, s, kin); !at.ok()) return at;
   }
   take_held_frames(model, kin);
-  for (const Model::Ride& ride : model.rides) take_ride(ride, what != Motion::positions, kin);
+  for (const Model::Attachment& attached : model.attachments)
+    take_attachment(attached, what != Motion::positions, kin);
   return {};
 }
 

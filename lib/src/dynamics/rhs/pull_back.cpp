@@ -55,27 +55,28 @@ TENDRIL_LANES void to_masses(std::size_t nodes, Pull& pull) {
   for (std::size_t i = 0; i < nodes; ++i) to.put(i, from.at(i) - from.at(i - 1));
 }
 
-/// What the root of a child rod feels goes to the node it rides on: the force, and the torque T by
+/// What the root of a child rod feels goes to the node it is attached to: the force, and the torque T by
 /// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
-void pass_on_torque(const Model::Ride& ride, const Kinematics& kin, Gradient& grad, LoadColumns& loads) {
-  if (!ride.reaction) return;
-  const std::size_t i = ride.root;
+void pass_on_torque(const Model::Attachment& attached, const Kinematics& kin, Gradient& grad,
+                    LoadColumns& loads) {
+  if (!attached.reaction) return;
+  const std::size_t i = attached.root;
   const Vec3 t0 = kin.frame.z[i];
-  const Vec3 t = kin.frame.z[ride.parent];
+  const Vec3 t = kin.frame.z[attached.parent];
   double along = grad.spin[i];
   if (!loads.torque.empty()) along -= loads.torque[i].dot(t0);
   const Vec3 torque = t0.cross(grad.tangent[i]) + along * t0;
-  grad.tangent.add(ride.parent, torque.cross(t));
-  grad.spin[ride.parent] += torque.dot(t);
+  grad.tangent.add(attached.parent, torque.cross(t));
+  grad.spin[attached.parent] += torque.dot(t);
   grad.tangent.set(i, Vec3::Zero());
   grad.spin[i] = 0.0;
   if (!loads.torque.empty()) loads.torque[i].setZero();
 }
 
-void pass_on_force(const Model::Ride& ride, Pull& pull) {
-  if (!ride.reaction) return;
-  pull.force.add(ride.parent, pull.force[ride.root]);
-  pull.force.set(ride.root, Vec3::Zero());
+void pass_on_force(const Model::Attachment& attached, Pull& pull) {
+  if (!attached.reaction) return;
+  pull.force.add(attached.parent, pull.force[attached.root]);
+  pull.force.set(attached.root, Vec3::Zero());
 }
 
 }  // namespace
@@ -83,8 +84,8 @@ void pass_on_force(const Model::Ride& ride, Pull& pull) {
 void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, LoadColumns& loads,
                    Pull& pull) {
   assert(grad.made.fits(kin) && (!model.loaded || loads.made.fits(kin)));
-  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride)
-    pass_on_torque(*ride, kin, grad, loads);
+  for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
+    pass_on_torque(*attached, kin, grad, loads);
   for (const Segment& s : model.segments)
     (s.twist || model.loaded ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
   for (const auto* held : {&model.bending.held, &model.bending.held_hinges})
@@ -96,7 +97,8 @@ void pull_back(const Model& model, const Kinematics& kin, Gradient& grad, LoadCo
   to_masses(model.nodes, pull);
   if (model.loaded)
     for (std::size_t i = 0; i < model.nodes; ++i) pull.force.add(i, loads.load[i]);
-  for (auto ride = model.rides.rbegin(); ride != model.rides.rend(); ++ride) pass_on_force(*ride, pull);
+  for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
+    pass_on_force(*attached, pull);
 }
 
 }  // namespace tendril

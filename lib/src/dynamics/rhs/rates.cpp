@@ -212,7 +212,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
     if (const Evaluation at = add_external(model, reference, t, kin, loads, power); !at.ok()) return at;
     add_torques(model, loads, grad);
   }
-  const bool by_edges = !model.loaded && model.rides.empty();
+  const bool by_edges = !model.loaded && model.attachments.empty();
   if (by_edges)
     pull_on_held_nodes(model, kin, grad, loads, pull);
   else

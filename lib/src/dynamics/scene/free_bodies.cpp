@@ -13,9 +13,9 @@ struct Grouping {
     std::iota(body.begin(), body.end(), std::size_t{0});
     // The body of a rod is that of its parent's, which comes before it in the order.
     for (const std::size_t r : model.order)
-      if (const auto* ride = model.ride_of(r)) {
-        if (ride->reaction)
-          body[r] = body[rod[ride->parent]];
+      if (const auto* attached = model.attachment_of(r)) {
+        if (attached->reaction)
+          body[r] = body[rod[attached->parent]];
         else
           held[r] = 1;
       }

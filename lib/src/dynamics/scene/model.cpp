@@ -143,7 +143,7 @@ void Model::add_anchors() {
 }
 
 void Model::add_joints() {
-  ride_index.assign(rods.size(), -1);
+  attachment_index.assign(rods.size(), -1);
   moved_mass = mass;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
@@ -156,7 +156,7 @@ void Model::add_joints() {
     if (joint.node >= rods[joint.parent].count)
       refuse("node", std::to_string(joint.node),
              "less than the parent's " + std::to_string(rods[joint.parent].count));
-    if (ride_index[joint.child] >= 0) refuse("child", "joined twice", "at most one parent");
+    if (attachment_index[joint.child] >= 0) refuse("child", "joined twice", "at most one parent");
     const std::size_t root = rods[joint.child].first;
     const std::size_t parent = rods[joint.parent].first + joint.node;
     if (anchored[root]) refuse("child", "its first node is anchored", "a free first node");
@@ -167,8 +167,8 @@ void Model::add_joints() {
     const Frame& f = rest_frame[parent];
     const Frame& g = rest_frame[root];
     const auto inside = [&](const Vec3& v) { return Vec3(v.dot(f.x), v.dot(f.y), v.dot(f.z)); };
-    ride_index[joint.child] = static_cast<int>(rides.size());
-    rides.push_back({root, parent, {inside(g.x), inside(g.y), inside(g.z)}, joint.reaction});
+    attachment_index[joint.child] = static_cast<int>(attachments.size());
+    attachments.push_back({root, parent, {inside(g.x), inside(g.y), inside(g.z)}, joint.reaction});
     held_position[root] = held_frame[root] = 1;
   }
 }
@@ -184,35 +184,35 @@ void Model::sort_rods() {
   const std::vector<std::size_t> rod_of = rods_of_nodes();
   std::vector<std::vector<std::size_t>> children(rods.size());
   for (std::size_t r = 0; r < rods.size(); ++r) {
-    if (const Ride* ride = ride_of(r))
-      children[rod_of[ride->parent]].push_back(r);
+    if (const Attachment* attached = attachment_of(r))
+      children[rod_of[attached->parent]].push_back(r);
     else
       order.push_back(r);
   }
   for (std::size_t k = 0; k < order.size(); ++k)
     order.insert(order.end(), children[order[k]].begin(), children[order[k]].end());
   if (order.size() < rods.size()) throw InvalidInput("joints", "a rod is its own ancestor", "trees of rods");
-  std::vector<Ride> sorted;
+  std::vector<Attachment> sorted;
   for (const std::size_t r : order)
-    if (const Ride* ride = ride_of(r)) {
-      ride_index[r] = static_cast<int>(sorted.size());
-      sorted.push_back(*ride);
+    if (const Attachment* attached = attachment_of(r)) {
+      attachment_index[r] = static_cast<int>(sorted.size());
+      sorted.push_back(*attached);
     }
-  rides = std::move(sorted);
+  attachments = std::move(sorted);
   carrier.resize(index_count());
   std::iota(carrier.begin(), carrier.end(), std::size_t{0});
   feels.assign(index_count(), 1);
-  for (const Ride& ride : rides) {
-    carrier[ride.root] = carrier[ride.parent];
-    feels[ride.root] = feels[ride.parent] != 0 && ride.reaction;
+  for (const Attachment& attached : attachments) {
+    carrier[attached.root] = carrier[attached.parent];
+    feels[attached.root] = feels[attached.parent] != 0 && attached.reaction;
   }
   // From the leaves up: a root's mass goes to its parent's node, also where that is itself a root, and of its
   // spin inertia what turns about that node's tangent.
-  for (auto ride = rides.rbegin(); ride != rides.rend(); ++ride) {
-    if (!ride->reaction) continue;
-    const double along = ride->rest.z.z();
-    moved_mass[ride->parent] += moved_mass[ride->root];
-    inertia[ride->parent] += along * along * inertia[ride->root];
+  for (auto attached = attachments.rbegin(); attached != attachments.rend(); ++attached) {
+    if (!attached->reaction) continue;
+    const double along = attached->rest.z.z();
+    moved_mass[attached->parent] += moved_mass[attached->root];
+    inertia[attached->parent] += along * along * inertia[attached->root];
   }
 }
 
@@ -261,7 +261,7 @@ void Model::choose_forces() {
   for (auto* numbers : {&inverse_mass, &inverse_inertia, &free_inertia, &damped_mass, &damped_inertia})
     *numbers = Column(nodes, rank++);
   std::vector<char> passes_on(nodes, 0);
-  for (const Ride& ride : rides) passes_on[ride.root] = ride.reaction;
+  for (const Attachment& attached : attachments) passes_on[attached.root] = attached.reaction;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!holds_position(i)) inverse_mass[i] = 1.0 / moved_mass[i];
     if (has_twist(i) && !holds_frame(i)) {

@@ -42,17 +42,17 @@ struct System::Model {
   Column free_inertia;                          ///< likewise
   Column damped_mass, damped_inertia;           ///< times the damping; 0 where held
   std::vector<std::size_t> held_positions;      ///< by node
-  /// Held nodes, but for those that pass what they feel to the node they ride on.
+  /// Held nodes, but for those that pass what they feel to the node they are attached to.
   std::vector<std::size_t> driven_positions, driven_frames;
 
-  /// A child's root: where it rides, and its rest frame in its parent's (coordinates of l, m, t).
-  struct Ride {
+  /// A child's root: what it is attached to, and its rest frame in its parent's (coordinates of l, m, t).
+  struct Attachment {
     std::size_t root, parent;  ///< flat nodes
     Frame rest;
     bool reaction;
   };
-  std::vector<int> ride_index;  ///< per rod, into rides, -1 for a rod on its own
-  std::vector<Ride> rides;      ///< parents before their children
+  std::vector<int> attachment_index;    ///< per rod, into attachments, -1 for a rod on its own
+  std::vector<Attachment> attachments;  ///< parents before their children
   /// A node at which rods are joined, whose half edges bend as those of one rod do. Its tangent halves the
   /// angle between the rod's own two edges; in truth it turns on by omega, across the tangent, until the
   /// moments of all rods there are in balance: omega = give T, T the moment of the children's first springs.
@@ -68,8 +68,8 @@ struct System::Model {
     Eigen::Matrix2d give;  ///< omega by T: the inverse of all springs there
   };
   std::vector<Hub> hubs;
-  /// Per node: the node that its place and frame move with (itself where it rides on none), and whether that
-  /// one feels it. Then the same for the places and turns of the bodies, which ride on nothing.
+  /// Per node: the node that its place and frame move with (itself where it is attached to none), and whether
+  /// that one feels it. Then the same for the places and turns of the bodies, which are attached to nothing.
   std::vector<std::size_t> carrier;
   std::vector<char> feels;
 
@@ -118,21 +118,22 @@ struct System::Model {
   bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
   bool has_before(std::size_t node) const { return begins[node] == 0; }
   bool has_after(std::size_t node) const { return ends[node] == 0; }
-  const Ride* ride_of(std::size_t rod) const {
-    return ride_index[rod] < 0 ? nullptr : &rides[static_cast<std::size_t>(ride_index[rod])];
+  const Attachment* attachment_of(std::size_t rod) const {
+    return attachment_index[rod] < 0 ? nullptr
+                                     : &attachments[static_cast<std::size_t>(attachment_index[rod])];
   }
 
   /// Flat indices of nodes, and of the places and turns of bodies.
   std::size_t index_count() const { return nodes + 2 * bodies.size(); }
 
   /// Where the three numbers of a flat index stand in y, and their rates.
-  Eigen::Index place_of(std::size_t index) const {
+  Eigen::Index offset_of(std::size_t index) const {
     if (index < nodes) return 3 * static_cast<Eigen::Index>(index);
     const auto k = static_cast<Eigen::Index>(index - nodes);
     return x_begin() + (k % 2) * bodies_span() + 3 * (k / 2);
   }
-  Eigen::Index rate_of(std::size_t index) const {
-    return place_of(index) + (index < nodes ? v_begin() : 2 * bodies_span());
+  Eigen::Index rate_offset_of(std::size_t index) const {
+    return offset_of(index) + (index < nodes ? v_begin() : 2 * bodies_span());
   }
   bool moves(std::size_t index) const { return index >= nodes || !holds_position(index); }
 

@@ -85,12 +85,12 @@ void Model::add_hubs() {
   const std::vector<std::size_t> rod_of = rods_of_nodes();
   std::vector<Mat3> rest(nodes, Mat3::Identity());  // of roots, in the frames of the nodes that carry them
   std::vector<std::size_t> hub_of(nodes, nodes);
-  for (const Ride& ride : rides) {
-    const std::size_t i = ride.root;
+  for (const Attachment& attached : attachments) {
+    const std::size_t i = attached.root;
     const std::size_t at = carrier[i];
     Mat3 own;
-    own << ride.rest.x, ride.rest.y, ride.rest.z;
-    rest[i] = rest[ride.parent] * own;
+    own << attached.rest.x, attached.rest.y, attached.rest.z;
+    rest[i] = rest[attached.parent] * own;
     const bool bends = std::min(bend_l[at], bend_m[at]) + bend_t[at] > 0.0;
     if (!bends || holds_frame(at) || feels[i] == 0) continue;
     if (hub_of[at] == nodes) {

@@ -51,11 +51,11 @@ void StaticCoordinates::hold() {
     held_frame_[node] = anchor.holds_frame;
     if (anchor.motion && anchor.holds_position) anchor_[node] = &anchor;
   }
-  ride_.assign(system_.rods().size(), -1);
+  parent_node_.assign(system_.rods().size(), -1);
   reacts_.assign(system_.rods().size(), 1);
   for (const Joint& joint : system_.scene().joints) {
     const std::size_t root = system_.rods()[joint.child].first;
-    ride_[joint.child] = static_cast<std::ptrdiff_t>(system_.rods()[joint.parent].first + joint.node);
+    parent_node_[joint.child] = static_cast<std::ptrdiff_t>(system_.rods()[joint.parent].first + joint.node);
     reacts_[joint.child] = joint.reaction;
     held_position_[root] = held_frame_[root] = 1;
   }
@@ -146,9 +146,9 @@ Eigen::VectorXd StaticCoordinates::moves(const State& state, const Eigen::Vector
     if (anchor_[i] != nullptr)
       move.segment<3>(3 * static_cast<Eigen::Index>(i)) = anchor_[i]->motion(time).position - at(state.y, i);
   for (auto r = rods_.rbegin(); r != rods_.rend(); ++r)
-    if (ride_[*r] >= 0)
+    if (parent_node_[*r] >= 0)
       move.segment<3>(3 * static_cast<Eigen::Index>(system_.rods()[*r].first)) =
-          at(move, static_cast<std::size_t>(ride_[*r]));
+          at(move, static_cast<std::size_t>(parent_node_[*r]));
   return move;
 }
 

@@ -29,8 +29,8 @@ class StaticCoordinates {
   bool holds_position(std::size_t node) const { return held_position_[node] != 0; }
   bool holds_frame(std::size_t node) const { return held_frame_[node] != 0; }
   const std::vector<std::size_t>& children_first() const { return rods_; }
-  /// Per rod: the parent's node its root rides on, or -1.
-  std::ptrdiff_t ride(std::size_t rod) const { return ride_[rod]; }
+  /// Per rod: the parent's node its root is attached to, or -1.
+  std::ptrdiff_t parent_node(std::size_t rod) const { return parent_node_[rod]; }
   bool reacts(std::size_t rod) const { return reacts_[rod] != 0; }
 
   double length() const { return length_; }  ///< of the longest rod at rest
@@ -75,7 +75,7 @@ class StaticCoordinates {
   std::vector<char> held_position_, held_frame_, reacts_;
   std::vector<const Anchor*> anchor_;  ///< per node that one moves, or null
   std::vector<std::size_t> rods_;
-  std::vector<std::ptrdiff_t> ride_;
+  std::vector<std::ptrdiff_t> parent_node_;
   double length_ = 0.0, energy_scale_ = 0.0;
   Eigen::VectorXd weight_;
 };

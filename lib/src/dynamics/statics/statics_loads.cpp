@@ -96,8 +96,8 @@ void StaticLoads::add_living(const External& one, const State& state, StateView&
 
 void StaticLoads::pass_to_parents() {
   for (const std::size_t r : coordinates_.children_first()) {
-    if (coordinates_.ride(r) < 0 || !coordinates_.reacts(r)) continue;
-    const auto parent = static_cast<std::size_t>(coordinates_.ride(r));
+    if (coordinates_.parent_node(r) < 0 || !coordinates_.reacts(r)) continue;
+    const auto parent = static_cast<std::size_t>(coordinates_.parent_node(r));
     const std::size_t root = system_.rods()[r].first;
     force_[parent] += force_[root];
     torque_[parent] += torque_[root];

@@ -20,7 +20,7 @@ class BodyBlocks {
   /// \param model, pattern  kept by reference
   BodyBlocks(const Model& model, const BlockPattern& pattern) : model_(model), pattern_(pattern) {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      One one{model.nodes + 2 * b + 1, model.place_of(model.nodes + 2 * b + 1), {}};
+      One one{model.nodes + 2 * b + 1, model.offset_of(model.nodes + 2 * b + 1), {}};
       const std::size_t own = pattern.pivot(one.turn);
       one.rows.push_back(one.turn);
       for (std::size_t e = pattern.begin(own); e < pattern.begin(own + 1); ++e)
@@ -41,7 +41,7 @@ class BodyBlocks {
       one.inertia = body.inertia_at(at[b].rotation);
       one.half_spin = 0.5 * cross_matrix(at[b].spin);
       if (body.isotropic) continue;
-      const Vec3 spun = rate.segment<3>(model_.rate_of(one.turn));
+      const Vec3 spun = rate.segment<3>(model_.rate_offset_of(one.turn));
       const Mat3 spin = cross_matrix(at[b].spin);
       const Mat3 turned = one.inertia * spin - cross_matrix(one.inertia * at[b].spin);
       const Mat3 resisted = one.inertia * cross_matrix(spun) - cross_matrix(one.inertia * spun);
@@ -63,13 +63,13 @@ class BodyBlocks {
   void put_right(double s, const Eigen::VectorXd& r, double* b) const {
     for (const One& one : bodies_)
       Eigen::Map<Vec3>(b + 4 * pattern_.pivot(one.turn)) =
-          one.inertia * (r.segment<3>(model_.rate_of(one.turn)) + s * r.segment<3>(one.place));
+          one.inertia * (r.segment<3>(model_.rate_offset_of(one.turn)) + s * r.segment<3>(one.place));
   }
 
   /// Takes C U_x off the rates of the turns.
   void take_turning(const double* u, Eigen::VectorXd& result) const {
     for (const One& one : bodies_)
-      result.segment<3>(model_.rate_of(one.turn)) -=
+      result.segment<3>(model_.rate_offset_of(one.turn)) -=
           one.half_spin * Eigen::Map<const Vec3>(u + 4 * pattern_.pivot(one.turn));
   }
 

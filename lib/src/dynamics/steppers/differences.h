@@ -37,7 +37,8 @@ class Differences {
     if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
     double speed = length_;
     for (std::size_t i = 0; i < model_.index_count(); ++i)
-      if (!is_turn(i)) speed = std::max(speed, state.y.segment<3>(model_.rate_of(i)).cwiseAbs().maxCoeff());
+      if (!is_turn(i))
+        speed = std::max(speed, state.y.segment<3>(model_.rate_offset_of(i)).cwiseAbs().maxCoeff());
     const auto step_of = [&](std::size_t i, std::size_t kind) {
       if (is_turn(i)) return 1e-7 * (kind < 3 ? 1.0 : speed / length_);
       return 1e-7 * (kind < 3 ? length_ : kind < 6 ? speed : kind == kAngle ? 1.0 : speed / length_);
@@ -47,7 +48,7 @@ class Differences {
         moved_ = state.y;
         bool any = false;
         for (const std::size_t i : nodes) {
-          const Eigen::Index place = place_of(i, kind);
+          const Eigen::Index place = offset_of(i, kind);
           any = any || place >= 0;
           if (place >= 0) moved_[place] += step_of(i, kind);
         }
@@ -56,7 +57,7 @@ class Differences {
         if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
         dy_ -= base_;
         for (const std::size_t i : nodes)
-          if (place_of(i, kind) >= 0)
+          if (offset_of(i, kind) >= 0)
             take(i, kind, step_of(i, kind), kind < 3 || kind == kAngle ? by_x : by_u);
       }
     return evaluations;
@@ -83,9 +84,10 @@ class Differences {
   /// Whether the numbers of an index are those of a body's turn.
   bool is_turn(std::size_t i) const { return i >= model_.nodes && (i - model_.nodes) % 2 == 1; }
 
-  Eigen::Index place_of(std::size_t i, std::size_t kind) const {
+  Eigen::Index offset_of(std::size_t i, std::size_t kind) const {
     const auto axis = static_cast<Eigen::Index>(kind % 3);
-    if (kind < 6) return model_.moves(i) ? axis + (kind < 3 ? model_.place_of(i) : model_.rate_of(i)) : -1;
+    if (kind < 6)
+      return model_.moves(i) ? axis + (kind < 3 ? model_.offset_of(i) : model_.rate_offset_of(i)) : -1;
     if (i >= model_.nodes || !(model_.inverse_inertia[i] > 0.0)) return -1;
     return (kind == kAngle ? model_.theta_begin() : model_.spin_begin()) + model_.twist_index[i];
   }
@@ -96,7 +98,7 @@ class Differences {
       auto* block = to.find(row, i);
       if (model_.moves(row))
         for (std::size_t r = 0; r < 3; ++r)
-          block->column[column][r] += dy_[model_.rate_of(row) + static_cast<Eigen::Index>(r)] / step;
+          block->column[column][r] += dy_[model_.rate_offset_of(row) + static_cast<Eigen::Index>(r)] / step;
       if (B == 4 && row < model_.nodes && model_.inverse_inertia[row] > 0.0)
         block->column[column][B - 1] += dy_[model_.spin_begin() + model_.twist_index[row]] / step;
     }

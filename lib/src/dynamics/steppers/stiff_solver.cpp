@@ -210,8 +210,8 @@ class BlockSolver : public StiffSolver {
     damping_.assign(b_.size(), 0.0);
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const std::size_t i = pattern_.node(k);
-      place_.push_back(model_.place_of(i));
-      rate_.push_back(model_.rate_of(i));
+      place_.push_back(model_.offset_of(i));
+      rate_.push_back(model_.rate_offset_of(i));
       if (i >= model_.nodes) {
         lay_out_body(k, (i - model_.nodes) % 2 == 0 ? model_.bodies[(i - model_.nodes) / 2].mass : 0.0);
         continue;

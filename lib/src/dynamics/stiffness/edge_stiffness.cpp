@@ -18,26 +18,26 @@ Mat3 project(const Vec3& a, const Mat3& m, const Vec3& b) {
   return left - (left * b) * b.transpose();
 }
 
-/// The edges around edge i that its springs see, in the order of their nodes: without a ride i - 1, i, i + 1;
-/// at a child's root the two of the node it rides on, then i, i + 1.
+/// The edges around edge i that its springs see, in the order of their nodes: i - 1, i, i + 1; at a child's
+/// root the two of the node it is attached to, then i, i + 1.
 struct Neighbourhood {
   Neighbourhood(const Model& model, const NodeRange& rod, std::size_t i)
       : frame_of{i == rod.first ? model.carrier[i] : i, i + 1},
-        rides(frame_of[0] != i),
-        own(rides ? 2 : 1),
-        edge{frame_of[0] - 1, rides ? frame_of[0] : i, rides ? i : i + 1, i + 1},
-        there{model.has_before(frame_of[0]), !rides || model.has_after(frame_of[0]),
-              rides || model.has_after(i + 1), rides && model.has_after(i + 1)} {}
+        attached(frame_of[0] != i),
+        own(attached ? 2 : 1),
+        edge{frame_of[0] - 1, attached ? frame_of[0] : i, attached ? i : i + 1, i + 1},
+        there{model.has_before(frame_of[0]), !attached || model.has_after(frame_of[0]),
+              attached || model.has_after(i + 1), attached && model.has_after(i + 1)} {}
 
   /// Places of the two edges whose sum gives the tangent at a side.
   std::size_t before(std::size_t side) const { return side == 0 ? 0 : own; }
   std::size_t after(std::size_t side) const { return side == 0 ? 1 : own + 1; }
   /// Slots of the nodes that edge place x joins.
-  std::size_t from(std::size_t x) const { return rides && x == 2 ? 1 : x; }
+  std::size_t from(std::size_t x) const { return attached && x == 2 ? 1 : x; }
   std::size_t to(std::size_t x) const { return x + 1; }
 
   std::array<std::size_t, 2> frame_of;  ///< node whose tangent and angle count
-  bool rides;
+  bool attached;
   std::size_t own;  ///< place of edge i
   std::array<std::size_t, 4> edge;
   std::array<bool, 4> there;
@@ -91,7 +91,7 @@ void add_tangent_curvature(const Model& model, const Neighbourhood& n, const Kin
                            const Gradient& grad, const SpringStiffness& s, ByEdges& b) {
   for (std::size_t side = 0; side < 2; ++side) {
     const std::size_t node = n.frame_of[side];
-    if (model.holds_frame(node) || (side == 0 && n.rides)) continue;
+    if (model.holds_frame(node) || (side == 0 && n.attached)) continue;
     const Vec3 t = kin.frame.z[node];
     Vec3 g = s.g_t[side].dot(t) * t;
     if (side == 0 || !model.has_after(node)) g += grad.tangent[node];
@@ -117,11 +117,11 @@ void place(const Model& model, const Neighbourhood& n, std::size_t i, EdgeStiffn
     to.node_feels[slot] = model.feels[node] != 0 && through_joint;
   };
   const std::size_t first = n.frame_of[0];
-  const bool through = !n.rides || model.feels[i] != 0;
+  const bool through = !n.attached || model.feels[i] != 0;
   set(0, first - 1, model.has_before(first), through);
   set(1, first, true, through);
   std::size_t slot = 2;
-  if (n.rides) set(slot++, first + 1, model.has_after(first), through);
+  if (n.attached) set(slot++, first + 1, model.has_after(first), through);
   set(slot++, i + 1, true, true);
   set(slot, i + 2, model.has_after(i + 1), true);
   to.angle = n.frame_of;
@@ -178,7 +178,7 @@ void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, con
   const Neighbourhood n(model, rod, i);
   SpringStiffness springs = spring_stiffness(model, i, reference, kin, grad, viscous);
   const Vec3 g_edge = gradient_by_edge(i, kin, grad, springs);
-  if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
   ByEdges edges = by_edges(n, kin, springs);
   add_tangent_curvature(model, n, kin, grad, springs, edges);
   to_nodes(n, kin, edges, springs, to);
@@ -191,7 +191,7 @@ void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, co
                      EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
   SpringStiffness springs = spring_resistance(model, i, kin);
-  if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
   to_nodes(n, kin, by_edges(n, kin, springs), springs, to);
   put(n, n.own, n.own, model.stretch[i] * kin.e[i] * kin.e[i].transpose(), to);
   place(model, n, i, to);
@@ -232,7 +232,7 @@ std::array<Slope, EdgeSlopes::kSprings> slopes_of(std::size_t i, const Kinematic
 
 /// By the frame the first node is fixed to: phi = t x d + theta t turns t_0 by phi x t_0, theta_0 by phi .
 /// t_0.
-void ride(const Vec3& t, const Vec3& t0, Slope& s) {
+void by_parent_frame(const Vec3& t, const Vec3& t0, Slope& s) {
   const Vec3 turn = t0.cross(s.t[0]) + s.theta[0] * t0;
   s.t[0] = turn.cross(t);
   s.theta[0] = turn.dot(t);
@@ -255,7 +255,7 @@ void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const 
     spin[side] = carried_spin(reference.tangent[n.frame_of[side]], kin.frame.z[n.frame_of[side]]);
   for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
     Slope& s = all[q];
-    if (n.rides) ride(kin.frame.z[n.frame_of[0]], kin.frame.z[i], s);
+    if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], s);
     Vec3 share[2];
     for (std::size_t side = 0; side < 2; ++side) {
       const Vec3 t = kin.frame.z[n.frame_of[side]];
@@ -301,7 +301,7 @@ void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, 
                               model.twist[i]};
   const Neighbourhood n(model, rod, i);
   place(model, n, i, to.place);
-  const bool rides = n.rides;
+  const bool attached = n.attached;
   for (std::size_t a = 0; a < 5; ++a) {
     for (Mat3& k : to.k[a]) k.setZero();
     for (std::size_t b = 0; b < 2; ++b) to.by_angle[a][b] = to.of_angle[b][a] = Vec3::Zero();
@@ -310,7 +310,7 @@ void turned_resistance(const Model& model, const NodeRange& rod, std::size_t i, 
   for (std::size_t q = 0; q < EdgeSlopes::kSprings; ++q) {
     // A deviation sees the edges of its own side and the edge between.
     const std::size_t first = q == 2 || q == 3 ? 1 : 0;
-    const std::size_t end = q < 2 && !rides ? 3 : 5;
+    const std::size_t end = q < 2 && !attached ? 3 : 5;
     for (std::size_t a = first; a < end; ++a) {
       const Vec3 g = stiffness[q] * slopes.node[q][a];
       for (std::size_t b = first; b < end; ++b) to.k[a][b] += g * rates.node[q][b].transpose();

@@ -8,7 +8,7 @@
 namespace tendril {
 
 /// Second derivatives of the elastic energy by what the springs of one edge see: the positions of up to five
-/// nodes and the angles of two. Positions that ride on another node stand under the node that carries them.
+/// nodes and the angles of two. Positions attached to another node stand under the node that carries them.
 struct EdgeStiffness {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::array<std::size_t, 5> node;   ///< in the order of the positions; kNone for what is not there

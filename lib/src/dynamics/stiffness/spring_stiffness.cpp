@@ -219,7 +219,7 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinem
   return s;
 }
 
-void ride(const Vec3& t, const Vec3& t0, SpringStiffness& s) {
+void by_parent_frame(const Vec3& t, const Vec3& t0, SpringStiffness& s) {
   const Vec3 g = s.g_t[0];
   const double g_theta = s.g_theta;
   Eigen::Matrix4d first;

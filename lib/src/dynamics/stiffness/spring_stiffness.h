@@ -35,7 +35,7 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinem
 /// Turns the derivatives by the first node's own (t_0, theta_0) into those by (t, theta) of a frame it is
 /// fixed to. With d = t' - t that frame turns by phi = t x d + theta t + theta d / 2, which takes t_0 by
 /// phi x t_0 + phi x (phi x t_0) / 2 and theta_0 by phi . t_0, all to second order.
-void ride(const Vec3& t, const Vec3& t0, SpringStiffness& s);
+void by_parent_frame(const Vec3& t, const Vec3& t0, SpringStiffness& s);
 
 Mat3 cross_matrix(const Vec3& v);
 
