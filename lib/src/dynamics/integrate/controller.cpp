@@ -207,7 +207,7 @@ std::unique_ptr<Controller> make_controller(const System& system, State start,
   auto* embedded = dynamic_cast<EmbeddedStepper*>(stepper.get());
   if (!embedded)
     throw InvalidInput("own_stepper", "it estimates no error", "an EmbeddedStepper, or a fixed_step");
-  stepper.release();
+  static_cast<void>(stepper.release());  // to the next one
   std::unique_ptr<EmbeddedStepper> choosing(embedded);
   if (!options.own_stepper && info(options.method).chooses == Chooses::method)
     return std::make_unique<Automatic>(system, std::move(start), options, std::move(choosing));
