@@ -71,7 +71,7 @@ class Keeper {
                                 touch.sticks});
     const std::uint64_t key = model_.key_of(touch.at);
     ledger_->meetings.push_back({key, touch.apart, touch.friction});
-    const Meeting* met = before_ ? before_->find(key) : nullptr;
+    const PairMeeting* met = before_ ? before_->find(key) : nullptr;
     if (met)
       ledger_->friction_work += 0.5 * (touch.friction + met->friction).dot(touch.slid);
     else

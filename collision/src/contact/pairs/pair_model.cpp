@@ -57,9 +57,9 @@ Vec3 mean_way(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 }  // namespace
 
-const Meeting* PairLedger::find(std::uint64_t key) const {
+const PairMeeting* PairLedger::find(std::uint64_t key) const {
   const auto at = std::lower_bound(meetings.begin(), meetings.end(), key,
-                                   [](const Meeting& met, std::uint64_t k) { return met.key < k; });
+                                   [](const PairMeeting& met, std::uint64_t k) { return met.key < k; });
   return at != meetings.end() && at->key == key ? &*at : nullptr;
 }
 

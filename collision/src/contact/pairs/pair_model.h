@@ -16,7 +16,7 @@ struct NearEdges {
 };
 
 /// What two points that touch have come apart by where they met, for friction to pull with.
-struct Meeting {
+struct PairMeeting {
   std::uint64_t key;  ///< of the points
   Vec3 apart;         ///< in the world
   Vec3 friction;      ///< on the first
@@ -28,10 +28,10 @@ struct PairLedger final : RodRodMemory {
   std::vector<Vec3> m;                    ///< their directors; empty without friction
   std::shared_ptr<const NearEdges> near;  ///< pairs that are looked at
   std::vector<double> slack;              ///< of each: the least distance less that where response begins
-  std::vector<Meeting> meetings;          ///< by ascending key, with friction
+  std::vector<PairMeeting> meetings;      ///< by ascending key, with friction
 
   /// Null where these points did not touch.
-  const Meeting* find(std::uint64_t key) const;
+  const PairMeeting* find(std::uint64_t key) const;
 };
 
 /// Two points of rods.

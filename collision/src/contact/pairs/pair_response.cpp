@@ -56,7 +56,7 @@ struct Surfaces {
 /// What friction pulled with at the last accepted state; points that come near each other only now take over
 /// from those beside them that did before: what slides or rolls along passes its pull on.
 Vec3 apart_before(const PairModel& model, const PairLedger& kept, const PointPair& at) {
-  if (const Meeting* met = kept.find(model.key_of(at))) return met->apart;
+  if (const PairMeeting* met = kept.find(model.key_of(at))) return met->apart;
   Vec3 sum = Vec3::Zero();
   int beside = 0;
   for (const int i : {-1, 0, 1})
@@ -65,7 +65,7 @@ Vec3 apart_before(const PairModel& model, const PairLedger& kept, const PointPai
       next.first += static_cast<std::size_t>(i);  // wraps to what is no point
       next.second += static_cast<std::size_t>(j);
       if (next.first >= model.lines.points.size() || next.second >= model.lines.points.size()) continue;
-      const Meeting* met = kept.find(model.key_of(next));
+      const PairMeeting* met = kept.find(model.key_of(next));
       if (met == nullptr) continue;
       sum += met->apart;
       ++beside;
