@@ -127,6 +127,7 @@ TEST(RodRodContact, KeepsMomentum) {
   Random random(3);
   for (const double friction : {0.0, 0.2, 10.0}) {
     auto [rods, s] = make_tangle(random, 0.02, 0.5);
+    rods[1].radius = 0.9 * kRadius;
     const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, friction, 0.1));
     s.memory = contact.remember(s.view(), nullptr);
     for (Vec3& p : s.p) p += random.in_cube(1e-3);
