@@ -53,26 +53,6 @@ struct Surfaces {
   Vec3 rate;   ///< of the first less the second
 };
 
-/// What friction pulled with at the last accepted state; points that come near each other only now take over
-/// from those beside them that did before: what slides or rolls along passes its pull on.
-Vec3 apart_before(const PairModel& model, const PairLedger& kept, const PointPair& at) {
-  if (const PairMeeting* met = kept.find(model.key_of(at))) return met->apart;
-  Vec3 sum = Vec3::Zero();
-  int beside = 0;
-  for (const int i : {-1, 0, 1})
-    for (const int j : {-1, 0, 1}) {
-      PointPair next = at;
-      next.first += static_cast<std::size_t>(i);  // wraps to what is no point
-      next.second += static_cast<std::size_t>(j);
-      if (next.first >= model.lines.points.size() || next.second >= model.lines.points.size()) continue;
-      const PairMeeting* met = kept.find(model.key_of(next));
-      if (met == nullptr) continue;
-      sum += met->apart;
-      ++beside;
-    }
-  return beside > 0 ? Vec3(sum / beside) : sum;
-}
-
 Surfaces surfaces(const PairModel& model, const StateView& state, const PairLedger& kept, const PairTouch& to,
                   const Vec3& velocity) {
   const PointPair& at = to.at;
@@ -83,7 +63,8 @@ Surfaces surfaces(const PairModel& model, const StateView& state, const PairLedg
   const Vec3 arm = share * before, other = (1.0 - share) * before;
   Surfaces result;
   result.slid = at.apart - first.since * arm - second.since * other;
-  result.apart = apart_before(model, kept, at) + result.slid;
+  const PairMeeting* met = kept.find(model.key_of(at));
+  result.apart = met ? Vec3(met->apart + result.slid) : result.slid;
   result.rate = velocity - first.spin.cross(share * at.apart) - second.spin.cross((1.0 - share) * at.apart);
   return result;
 }
