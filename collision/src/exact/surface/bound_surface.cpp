@@ -18,6 +18,8 @@ using collision::PlacedTriangle;
 
 namespace {
 
+// A vertex is a combination of control points and of unit frames made from their differences: below this,
+// squares and triple products on the way stay finite, and so does every corner that predicates see.
 constexpr double kLargest = 0x1p200;
 
 void check(std::span<const CurvePair> pairs) {
@@ -29,6 +31,7 @@ void check(std::span<const CurvePair> pairs) {
                              "coordinates of at most 2^200");
 }
 
+/// All that a point's place in any pose depends on.
 using Coordinates = std::vector<double>;
 
 Coordinates coordinates_of(const BoundPoints& points, std::size_t i, std::vector<BoundShare>& shares) {
@@ -59,6 +62,8 @@ std::vector<std::uint32_t> with_alike_as_one(const BoundPoints& points,
   return out;
 }
 
+/// Asked of the binding once, not of positions in each pose: what is sewn up at rest by points bound alike stays
+/// so, and what only happens to coincide in a pose does not count.
 bool closed(const BoundPoints& points, std::span<const collision::Triangle> triangles) {
   std::vector<std::uint32_t> corners;
   for (const collision::Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
@@ -84,6 +89,7 @@ void BoundSurface::pose(std::span<const CurvePair> posed) {
 
 Answer BoundSurface::relation(const Shape& shape) {
   if (range_of(shape) == Range::not_finite) return undecidable(Reason::not_finite);
+  // A hit cannot be outdone: from there on nothing is entered, and no cell deformed.
   const Box box = box_about(shape);
   Relation most = Relation::free;
   hierarchy_.descend(
@@ -105,6 +111,8 @@ std::vector<Meeting> BoundSurface::meetings(const Shape& shape) {
 
 std::vector<Meeting> BoundSurface::meetings(const Surface& other) {
   std::vector<Meeting> out;
+  // The other's tree is asked for each box of ours before what is in it is deformed: deforming a cell costs far
+  // more than a descent that finds nothing.
   const auto meets_some = [&](const Box& box) {
     bool some = false;
     other.tree().descend([&](const Box& b) { return !some && b.meets(box); },
@@ -133,6 +141,8 @@ Inside BoundSurface::inside(const Vec3& point) {
                        touching = t.box.holds(point) &&
                                   exact::relation(query, shape_of(t)).relation != Relation::free;
                        if (touching) return;
+                       // Triangles are known one by one, so the range of numbers is, too: an extreme one
+                       // elsewhere makes no other test slow.
                        const Predicates signs(std::max(range_of(query), range_of(shape_of(t))));
                        const int crossing = crossing_above(signs, t.corners, point);
                        crossed += crossing != 0;
@@ -143,6 +153,7 @@ Inside BoundSurface::inside(const Vec3& point) {
   return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
 }
 
+/// Every triangle has its solid angle, so nothing can be left out.
 double BoundSurface::winding_about(const Vec3& point) {
   double sum = 0.0;
   hierarchy_.descend([](const Box&) { return true; },
@@ -167,6 +178,7 @@ Nearest BoundSurface::nearest(const Shape& shape) {
   hierarchy_.nearest([&](const Box& b) { return boxes_apart(b, box); }, [&] { return best.distance.upper; },
                      [&](const PlacedTriangle& t) {
                        const Distance d = distance(shape, shape_of(t));
+                       // Of equals the first, as of the whole mesh: the order of visits is the pose's.
                        const bool nearer = d.upper < best.distance.upper ||
                                            (d.upper == best.distance.upper && t.index < best.triangle);
                        if (!found || nearer) best = {d, t.index};
