@@ -47,12 +47,11 @@ inline Anchor mover(std::size_t node, const Vec3& from, const Vec3& velocity, do
   return anchor;
 }
 
-/// From a state, by default the rest; throws when it is not found. Where rounding hides the tolerance,
-/// balance decides, and how near the last step comes is the compiler's: ten tolerances are let pass.
+/// From a state, by default the rest; throws when it is not found to the tolerance.
 inline Equilibrium balanced_from(const System& system, State start, const StaticsOptions& options = {}) {
   Equilibrium found = find_equilibrium(system, std::move(start), options);
   if (found.balance != Balance::converged) throw std::runtime_error("no equilibrium: " + found.reason);
-  if (!(found.last_step <= 10.0 * options.tolerance))
+  if (!(found.last_step <= options.tolerance))
     throw std::runtime_error("no equilibrium: balanced, but the last step is " +
                              std::to_string(found.last_step / options.tolerance) + " tolerances");
   return found;
