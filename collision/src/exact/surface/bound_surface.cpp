@@ -62,8 +62,8 @@ std::vector<std::uint32_t> with_alike_as_one(const BoundPoints& points,
   return out;
 }
 
-/// Asked of the binding once, not of positions in each pose: what is sewn up at rest by points bound alike stays
-/// so, and what only happens to coincide in a pose does not count.
+/// Asked of the binding once, not of positions in each pose: what points bound alike sew up stays so, and
+/// what only happens to coincide in a pose does not count.
 bool closed(const BoundPoints& points, std::span<const collision::Triangle> triangles) {
   std::vector<std::uint32_t> corners;
   for (const collision::Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
@@ -111,8 +111,8 @@ std::vector<Meeting> BoundSurface::meetings(const Shape& shape) {
 
 std::vector<Meeting> BoundSurface::meetings(const Surface& other) {
   std::vector<Meeting> out;
-  // The other's tree is asked for each box of ours before what is in it is deformed: deforming a cell costs far
-  // more than a descent that finds nothing.
+  // The other's tree is asked for each box of ours before what is in it is deformed: deforming a cell costs
+  // far more than a descent that finds nothing.
   const auto meets_some = [&](const Box& box) {
     bool some = false;
     other.tree().descend([&](const Box& b) { return !some && b.meets(box); },
