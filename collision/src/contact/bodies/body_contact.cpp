@@ -109,8 +109,7 @@ std::shared_ptr<const ForceMemory> BodyContact::remember(
                                 next->placed[second].rotation.transpose() * at.apart});
   });
   if (closed && !kept) refuse(*model_, *closed);
-  std::sort(next->meetings.begin(), next->meetings.end(),
-            [](const Meeting& a, const Meeting& b) { return a.key < b.key; });
+  sort_by_key(next->meetings);
   return next;
 }
 

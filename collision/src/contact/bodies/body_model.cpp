@@ -72,9 +72,8 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
   const Vec3 surface = near.x - near.radius * n;
   BodyContactPoint out{near, surface, response, near.point * colliders.size() + near.collider, Vec3::Zero()};
   if (law.friction == 0.0 || !kept) return out;
-  const auto was = std::lower_bound(kept->meetings.begin(), kept->meetings.end(), out.key,
-                                    [](const Meeting& m, std::uint64_t key) { return m.key < key; });
-  if (was == kept->meetings.end() || was->key != out.key) return out;
+  const Meeting* was = find_key(kept->meetings, out.key);
+  if (was == nullptr) return out;
   const Vec3 apart =
       second.rotation * was->pulled + first.to_world(was->on_first) - second.to_world(was->on_second);
   out.apart = apart - n.dot(apart) * n;

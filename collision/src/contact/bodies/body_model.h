@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "contact/by_key.h"
 #include "contact/response.h"
 #include "contact/solids.h"
 

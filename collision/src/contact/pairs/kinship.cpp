@@ -8,6 +8,8 @@
 #include <queue>
 #include <string>
 
+#include "contact/by_key.h"
+
 namespace tendril::contact {
 namespace {
 
@@ -31,26 +33,20 @@ void connect(Roads& roads, std::uint32_t a, std::uint32_t b, double length) {
   roads[b].push_back({a, length});
 }
 
-/// The first node of a rod of the scene among those of the lines; empty where the rod is not among them.
-std::optional<std::uint32_t> first_of(const RodLines& lines, std::size_t rod) {
-  std::uint32_t first = 0;
-  for (const ContactRod& one : lines.rods) {
-    if (one.rod == rod) return first;
-    first += static_cast<std::uint32_t>(one.rest.size());
-  }
-  return {};
-}
-
+/// The node that a joint names on one side, among those of the lines.
 std::uint32_t node_of(const RodLines& lines, const RodJoint& joint, std::size_t side, std::size_t i) {
   const std::string place = "contact.joints[" + std::to_string(i) + "]";
-  const auto first = first_of(lines, joint.rod[side]);
-  if (!first) throw InvalidInput(place + ".rod", std::to_string(joint.rod[side]), "a rod in contact");
-  const auto of = std::find_if(lines.rods.begin(), lines.rods.end(),
-                               [&](const ContactRod& rod) { return rod.rod == joint.rod[side]; });
-  if (joint.node[side] >= of->rest.size())
+  std::size_t first = 0;
+  for (const ContactRod& rod : lines.rods) {
+    if (rod.rod != joint.rod[side]) {
+      first += rod.rest.size();
+      continue;
+    }
+    if (joint.node[side] < rod.rest.size()) return static_cast<std::uint32_t>(first + joint.node[side]);
     throw InvalidInput(place + ".node", std::to_string(joint.node[side]),
-                       "below the rod's number of masses, " + std::to_string(of->rest.size()));
-  return *first + static_cast<std::uint32_t>(joint.node[side]);
+                       "below the rod's number of masses, " + std::to_string(rod.rest.size()));
+  }
+  throw InvalidInput(place + ".rod", std::to_string(joint.rod[side]), "a rod in contact");
 }
 
 Roads roads_of(const RodLines& lines, const std::vector<RodJoint>& joints) {
@@ -143,10 +139,7 @@ Kinship::Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, dou
 }
 
 const Kin* Kinship::between(std::uint32_t first, std::uint32_t second) const {
-  const std::uint64_t key = key_of(first, second);
-  const auto at = std::lower_bound(edges_.begin(), edges_.end(), key,
-                                   [](const Kin& kin, std::uint64_t k) { return kin.key < k; });
-  return at != edges_.end() && at->key == key ? &*at : nullptr;
+  return find_key(edges_, key_of(first, second));
 }
 
 }  // namespace tendril::contact

@@ -35,8 +35,7 @@ class Keeper {
     const auto closed =
         each_touch(model_, state_, ledger_->p, before_, [&](const PairTouch& at) { add(at); });
     if (closed && !before_) refuse(*closed);
-    const auto by_points = [](const auto& a, const auto& b) { return a.key < b.key; };
-    std::sort(ledger_->meetings.begin(), ledger_->meetings.end(), by_points);
+    sort_by_key(ledger_->meetings);
     return std::move(ledger_);
   }
 
@@ -71,7 +70,7 @@ class Keeper {
                                 touch.sticks});
     const std::uint64_t key = model_.key_of(touch.at);
     ledger_->meetings.push_back({key, touch.apart, touch.friction});
-    const PairMeeting* met = before_ ? before_->find(key) : nullptr;
+    const PairMeeting* met = before_ ? find_key(before_->meetings, key) : nullptr;
     if (met)
       ledger_->friction_work += 0.5 * (touch.friction + met->friction).dot(touch.slid);
     else

@@ -57,12 +57,6 @@ Vec3 mean_way(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 }  // namespace
 
-const PairMeeting* PairLedger::find(std::uint64_t key) const {
-  const auto at = std::lower_bound(meetings.begin(), meetings.end(), key,
-                                   [](const PairMeeting& met, std::uint64_t k) { return met.key < k; });
-  return at != meetings.end() && at->key == key ? &*at : nullptr;
-}
-
 PairModel::PairModel(std::vector<ContactRod> rods, const std::vector<RodJoint>& joints, const Law& how)
     : law(checked(how)),
       lines(rods, apart_for(rods, how.range)),

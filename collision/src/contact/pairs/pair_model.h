@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "contact/by_key.h"
 #include "contact/response.h"
 #include "kinship.h"
 
@@ -29,9 +30,6 @@ struct PairLedger final : RodRodMemory {
   std::shared_ptr<const NearEdges> near;  ///< pairs that are looked at
   std::vector<double> slack;              ///< of each: the least distance less that where response begins
   std::vector<PairMeeting> meetings;      ///< by ascending key, with friction
-
-  /// Null where these points did not touch.
-  const PairMeeting* find(std::uint64_t key) const;
 };
 
 /// Two points of rods.

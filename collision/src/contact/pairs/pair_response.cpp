@@ -63,7 +63,7 @@ Surfaces surfaces(const PairModel& model, const StateView& state, const PairLedg
   const Vec3 arm = share * before, other = (1.0 - share) * before;
   Surfaces result;
   result.slid = at.apart - first.since * arm - second.since * other;
-  const PairMeeting* met = kept.find(model.key_of(at));
+  const PairMeeting* met = find_key(kept.meetings, model.key_of(at));
   result.apart = met ? Vec3(met->apart + result.slid) : result.slid;
   result.rate = velocity - first.spin.cross(share * at.apart) - second.spin.cross((1.0 - share) * at.apart);
   return result;

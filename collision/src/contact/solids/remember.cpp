@@ -32,8 +32,7 @@ class Keeper {
     if (closed && !before_) refuse(*closed);
     // Points are met edge by edge and, on an edge, solid by solid: an edge between two of them mixes the
     // keys.
-    std::sort(ledger_->touches.begin(), ledger_->touches.end(),
-              [](const KeptTouch& a, const KeptTouch& b) { return a.key < b.key; });
+    sort_by_key(ledger_->touches);
     return std::move(ledger_);
   }
 
@@ -69,7 +68,7 @@ class Keeper {
     ledger_->contacts.push_back({model_.lines.rods[edge.rod].rod, edge.node, at.fraction, at.near.collider,
                                  at.near.gap + margin, at.near.x, r.normal, r.force, r.friction, r.sticks});
     ledger_->touches.push_back({at.key, r.stick_at, at.near.x, r.friction});
-    const KeptTouch* was = before_ ? before_->find(at.key) : nullptr;
+    const KeptTouch* was = before_ ? find_key(before_->touches, at.key) : nullptr;
     if (was)
       ledger_->friction_work += 0.5 * (r.friction + was->friction).dot(at.near.x - was->x);
     else

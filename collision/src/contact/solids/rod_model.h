@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "contact/by_key.h"
 #include "contact/response.h"
 #include "contact/rod_line.h"
 #include "contact/solids.h"
@@ -23,10 +24,7 @@ struct Ledger final : ContactMemory {
   std::vector<Vec3> p;             ///< of all nodes of rods in contact
   std::vector<Placement> placed;   ///< per collider
   std::vector<double> slack;       ///< per edge and collider: least gap less the range, or less
-  std::vector<KeptTouch> touches;  ///< by ascending key, for find()
-
-  /// Null where that point was not in the range of that solid.
-  const KeptTouch* find(std::uint64_t key) const;
+  std::vector<KeptTouch> touches;  ///< by ascending key
 };
 
 struct RodModel {

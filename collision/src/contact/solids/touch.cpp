@@ -51,12 +51,6 @@ void add_body(const StateView& state, const Touch& at, std::size_t body, LoadDer
 
 }  // namespace
 
-const KeptTouch* Ledger::find(std::uint64_t key) const {
-  const auto at = std::lower_bound(touches.begin(), touches.end(), key,
-                                   [](const KeptTouch& t, std::uint64_t k) { return t.key < k; });
-  return at != touches.end() && at->key == key ? &*at : nullptr;
-}
-
 void add_derivatives(const RodModel& model, const StateView& state, const Touch& at, LoadDerivatives& to) {
   const double share[2] = {1.0 - at.fraction, at.fraction};
   for (std::size_t i = 0; i < 2; ++i)
@@ -74,7 +68,7 @@ Touch touch(const RodModel& model, const StateView& state, const Ledger* kept, c
   std::optional<Vec3> from;
   if (kept && model.law.friction > 0.0) {
     // What comes into the range within a step is held where it was when the step began: it slides from there.
-    const KeptTouch* was = kept->find(key);
+    const KeptTouch* was = find_key(kept->touches, key);
     from = was ? was->stick_at : model.local_before(*kept, at, near.collider);
   }
   const Vec3 velocity = between(state.v[node], state.v[node + 1], at.fraction);
