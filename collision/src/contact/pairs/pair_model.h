@@ -149,12 +149,14 @@ struct PairTouch {
   Vec3 force;     ///< on the first, friction included
   Vec3 friction;  ///< of it
   bool sticks;
-  Vec3 slid;   ///< what the surfaces have come apart by since the last accepted state
-  Vec3 apart;  ///< what friction would pull with from here on
-  double arm;  ///< from the first point to where the surfaces meet, against the normal
-  Mat3 by_position = Mat3::Zero(),
-       by_velocity = Mat3::Zero();  ///< of the force by the first, without friction
+  Vec3 slid;    ///< what the surfaces have come apart by since the last accepted state
+  Vec3 apart;   ///< what friction would pull with from here on
+  double arm;   ///< from the first point to where the surfaces meet, against the normal
+  Normal push;  ///< the normal force and its derivatives by the first point
 };
+
+/// The derivative of the unit vector between two points by the first.
+Mat3 bend_of(const PointPair& at);
 
 PairTouch respond(const PairModel& model, const StateView& state, const PairLedger* kept,
                   const PointPair& at);

@@ -89,20 +89,23 @@ Vec3 velocity_of(const PairModel& model, const StateView& state, std::size_t poi
 
 }  // namespace
 
+Mat3 bend_of(const PointPair& at) {
+  const double whole = at.apart.norm();
+  const Vec3 n = at.apart / whole;
+  return (Mat3::Identity() - n * n.transpose()) / whole;
+}
+
 PairTouch respond(const PairModel& model, const StateView& state, const PairLedger* kept,
                   const PointPair& at) {
   const double whole = at.apart.norm(), weight = model.weight(at);
   const LinePoint &x = model.lines.points[at.first], &y = model.lines.points[at.second];
   const Vec3 n = at.apart / whole;
-  const Mat3 bend = (Mat3::Identity() - n * n.transpose()) / whole;
   const Vec3 velocity = velocity_of(model, state, at.first) - velocity_of(model, state, at.second);
-  const Normal normal = push_of(model.law, weight, at.gap, n, bend, velocity, Vec3::Zero());
+  const Normal normal = push_of(model.law, weight, at.gap, n, bend_of(at), velocity, Vec3::Zero());
   const double radius = model.lines.rods[model.lines.edges[x.edge].rod].radius;
   const double arm = whole * radius / model.thick(x.edge, y.edge);
-  PairTouch result{at,           n,  normal.damped * normal.push * n, Vec3::Zero(), false, Vec3::Zero(),
-                   Vec3::Zero(), arm};
-  result.by_position = by_position(normal, n, bend);
-  result.by_velocity = by_velocity(normal, n);
+  PairTouch result{
+      at, n, normal.damped * normal.push * n, Vec3::Zero(), false, Vec3::Zero(), Vec3::Zero(), arm, normal};
   if (model.law.friction > 0.0 && kept)
     add_friction(model.law, weight * stick_of(model.law), model.law.friction * normal.damped * normal.push,
                  surfaces(model, state, *kept, result, velocity), result);

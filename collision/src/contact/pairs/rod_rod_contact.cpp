@@ -25,13 +25,15 @@ Shares shares_of(const PairModel& model, const StateView& state, std::size_t poi
 void add_derivatives(const PairModel& model, const StateView& state, const PairTouch& touch,
                      LoadDerivatives& to) {
   const Shares side[2] = {shares_of(model, state, touch.at.first), shares_of(model, state, touch.at.second)};
+  const Mat3 by_place = by_position(touch.push, touch.normal, bend_of(touch.at));
+  const Mat3 by_rate = by_velocity(touch.push, touch.normal);
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j) {
           const double share = (a == b ? 1.0 : -1.0) * side[a].share[i] * side[b].share[j];
-          to.add_by_position(side[a].node + i, side[b].node + j, share * touch.by_position);
-          to.add_by_velocity(side[a].node + i, side[b].node + j, share * touch.by_velocity);
+          to.add_by_position(side[a].node + i, side[b].node + j, share * by_place);
+          to.add_by_velocity(side[a].node + i, side[b].node + j, share * by_rate);
         }
 }
 
