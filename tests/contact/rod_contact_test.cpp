@@ -5,6 +5,7 @@
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
+#include "laws.h"
 #include "shown.h"
 #include "support/rods.h"
 
@@ -14,6 +15,8 @@ namespace {
 using test::Random;
 using test::Shown;
 using test::shown;
+
+constexpr double kRange = 0.06;
 
 std::vector<Vec3> wavy(double height) {
   std::vector<Vec3> p;
@@ -56,17 +59,6 @@ std::vector<Collider> solids() {
           beside("cylinder", cylinder(0.2, 0.2), turned(Vec3(0.1, 0.0, 0.0)), -1.0, 0.075)};
 }
 
-Law law_of(Law::Kind kind, double friction, double damping) {
-  Law law;
-  law.kind = kind;
-  law.stiffness = 300.0;
-  law.range = 0.06;
-  law.friction = friction;
-  law.damping = damping;
-  law.stick_damping = damping;
-  return law;
-}
-
 TEST(RodContact, KeepsToWhatItSaysOfItself) {
   Random random(1);
   for (const Law::Kind kind : {Law::Kind::barrier, Law::Kind::penalty})
@@ -74,7 +66,7 @@ TEST(RodContact, KeepsToWhatItSaysOfItself) {
       for (const double damping : {0.0, 0.2}) {
         SCOPED_TRACE(std::to_string(friction) + " " + std::to_string(damping));
         Shown s = shown(random, wavy(0.0), 0.5);
-        RodContact contact({{0, 0.05, s.p}}, solids(), law_of(kind, friction, damping));
+        RodContact contact({{0, 0.05, s.p}}, solids(), law_of(kind, kRange, friction, damping));
         s.memory = contact.remember(s.view(), nullptr);
         ASSERT_GT(static_cast<const ContactMemory&>(*s.memory).contacts.size(), 10u);
         // Moved a little, so that friction pulls.
@@ -99,7 +91,7 @@ TEST(RodContact, ActsOnFreeBodiesAsOnRods) {
         const Placement& at = all[i].placement;
         s.bodies.push_back({at.position, at.rotation, at.velocity, at.spin, 2.0});
       }
-      RodContact contact({{0, 0.05, s.p}}, all, law_of(Law::Kind::barrier, friction, damping));
+      RodContact contact({{0, 0.05, s.p}}, all, law_of(Law::Kind::barrier, kRange, friction, damping));
       s.memory = contact.remember(s.view(), nullptr);
       ASSERT_GT(static_cast<const ContactMemory&>(*s.memory).contacts.size(), 10u);
       for (Vec3& p : s.p) p += random.in_cube(1e-3);
@@ -114,7 +106,7 @@ TEST(RodContact, ActsOnFreeBodiesAsOnRods) {
 TEST(RodContact, IsTheSameWithALedgerAndWithout) {
   Random random(2);
   const std::vector<Vec3> rest = wavy(0.4);
-  const RodContact contact({{0, 0.05, rest}}, solids(), law_of(Law::Kind::barrier, 0.0, 0.0));
+  const RodContact contact({{0, 0.05, rest}}, solids(), law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
   int touched = 0;
   for (int round = 0; round < 300; ++round) {
     Shown s = shown(random, wavy(random.uniform(0.0, 0.05)), 0.5);
@@ -167,7 +159,7 @@ TEST(RodContact, LetsNothingThroughAtAnySpeed) {
   const std::vector<Vec3> rest = test::straight(4, 1.0);
   for (int shot = 0; shot < 100; ++shot) {
     const double thickness = 0.01, speed = std::pow(10.0, random.uniform(-1, 3));
-    Law law = law_of(Law::Kind::barrier, 0.0, 0.0);
+    Law law = law_of(Law::Kind::barrier, kRange, 0.0, 0.0);
     law.range = 0.01;
     law.stiffness = 1e4 + 1e4 * speed * speed;
     const Collider plate{"plate", box({2, 2, thickness / 2}), {.position = Vec3(0, 0, -0.1)}};

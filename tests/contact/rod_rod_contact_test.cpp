@@ -5,6 +5,7 @@
 #include <tendril/dynamics/simulation.h>
 
 #include "crossing.h"
+#include "laws.h"
 #include "shown.h"
 
 namespace tendril::contact {
@@ -14,18 +15,9 @@ using test::Random;
 using test::Shown;
 using test::shown;
 
-constexpr double kRadius = 0.05;
+constexpr double kRange = 0.04;
 
-Law law_of(Law::Kind kind, double friction, double damping) {
-  Law law;
-  law.kind = kind;
-  law.stiffness = 300.0;
-  law.range = 0.04;
-  law.friction = friction;
-  law.damping = damping;
-  law.stick_damping = damping;
-  return law;
-}
+constexpr double kRadius = 0.05;
 
 /// A wavy rod with a hook at its end that comes back to it, and one that lies across both.
 std::vector<std::vector<Vec3>> tangle(double apart) {
@@ -51,7 +43,7 @@ Tangle make_tangle(Random& random, double apart, double speed) {
   std::vector<NodeRange> ranges;
   for (const std::vector<Vec3>& p : tangle(apart)) {
     ranges.push_back({all.size(), p.size()});
-    // At rest they are straight: what is bent together later is no kin.
+    // At rest they are straight: what is bent together later is no neighbour.
     std::vector<Vec3> rest;
     for (std::size_t i = 0; i < p.size(); ++i)
       rest.push_back(i == 0 ? Vec3(5.0 * static_cast<double>(out.rods.size()) * Vec3::UnitZ())
@@ -72,7 +64,7 @@ TEST(RodRodContact, KeepsToWhatItSaysOfItself) {
       for (const double damping : {0.0, 0.2}) {
         SCOPED_TRACE(std::to_string(friction) + " " + std::to_string(damping));
         auto [rods, s] = make_tangle(random, 0.02, 0.5);
-        const RodRodContact contact(rods, {}, law_of(kind, friction, damping));
+        const RodRodContact contact(rods, {}, law_of(kind, kRange, friction, damping));
         s.memory = contact.remember(s.view(), nullptr);
         ASSERT_GT(memory_of(s.memory).touches.size(), 30u);
         bool self = false, other = false;
@@ -96,7 +88,7 @@ TEST(RodRodContact, IsTheSameWithALedgerAndWithout) {
   long searches = 0, steps = 0;
   for (int round = 0; round < 60; ++round) {
     auto [rods, s] = make_tangle(random, random.uniform(0.01, 0.08), 0.5);
-    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, 0.0, 0.0));
+    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
     s.memory = contact.remember(s.view(), nullptr);
     for (int step = 0; step < 12; ++step) {
       const Vec3 common = random.in_cube(1.0);
@@ -128,7 +120,7 @@ TEST(RodRodContact, KeepsMomentum) {
   for (const double friction : {0.0, 0.2, 10.0}) {
     auto [rods, s] = make_tangle(random, 0.02, 0.5);
     rods[1].radius = 0.9 * kRadius;
-    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, friction, 0.1));
+    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, friction, 0.1));
     s.memory = contact.remember(s.view(), nullptr);
     for (Vec3& p : s.p) p += random.in_cube(1e-3);
     std::vector<Vec3> force(s.p.size(), Vec3::Zero()), torque = force;
@@ -150,7 +142,7 @@ TEST(RodRodContact, KeepsMomentum) {
 TEST(RodRodContact, SeesNoSlidingInARigidMotion) {
   Random random(4);
   auto [rods, s] = make_tangle(random, 0.02, 0.0);
-  const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, 0.5, 0.1));
+  const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, 0.5, 0.1));
   const Vec3 axis(0.3, -0.5, 0.8);
   const auto turn = [&](double angle) {
     return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
@@ -285,7 +277,7 @@ TEST(RodRodContact, IsSmoothAlongALine) {
   const std::vector<Vec3> a = test::straight(4, 1.0);
   std::vector<Vec3> rest = a;
   for (Vec3& x : rest) x += Vec3(0, 0, 1);
-  const Law law = law_of(Law::Kind::barrier, 0.0, 0.0);
+  const Law law = law_of(Law::Kind::barrier, kRange, 0.0, 0.0);
   const RodRodContact contact({{0, kRadius, a}, {1, kRadius, rest}}, {}, law);
   Random random(6);
   for (const double gap : {0.01, 0.02}) {
@@ -310,7 +302,7 @@ TEST(RodRodContact, IsSmoothAlongALine) {
   }
 }
 
-TEST(RodRodContact, LeavesOutWhatIsKin) {
+TEST(RodRodContact, LeavesOutNeighboursAlongTheRods) {
   // A zigzag with angles of 60 degrees; a branch at 30 degrees from a node; a half circle wide enough.
   const double r = 0.02;
   std::vector<Vec3> zigzag, branch, bow;

@@ -80,7 +80,7 @@ TEST(ContactScene, WithoutResponseABodyFallsThrough) {
   EXPECT_NEAR(run.snapshot().bodies[1].position.z(), 0.7 - 0.5 * 0.3 - 0.5 * 9.81 * 0.09, 1e-6);
 }
 
-/// Two rods that cross, and a twig on the one that falls: it is kin of its stem, no contact.
+/// Two rods that cross, and a twig on the one that falls: joined to its stem, it is no contact.
 Json crossing() {
   return Json::parse(R"({
     "version": 1,

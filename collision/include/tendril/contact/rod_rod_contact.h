@@ -35,7 +35,7 @@ struct TENDRIL_CONTACT_API RodRodMemory : ForceMemory {
   long searches = 0;              ///< for edges that are near each other
 };
 
-struct PairModel;  ///< rods laid out in points, and which of them are kin
+struct PairModel;  ///< rods laid out in points, and which pairs of them are left out
 
 /// Contact of rods with each other and with themselves, along their lines: with b of Law, the potential is
 /// kappa / l times the sum over pairs of points x, y of w_x w_y b(|x - y| - r_x - r_y - m), w a point's share

@@ -62,16 +62,16 @@ PairModel::PairModel(std::vector<ContactRod> rods, const std::vector<RodJoint>& 
       lines(rods, apart_for(rods, how.range)),
       widest2(squares(lines)),
       // The margin is at most range / 20, see above.
-      kinship(lines, joints, 2.0 * thickest(rods) + 1.05 * how.range,
-              [this](std::uint32_t e, std::uint32_t f) { return meets(e, f); }) {}
+      exclusions(lines, joints, 2.0 * thickest(rods) + 1.05 * how.range,
+                 [this](std::uint32_t e, std::uint32_t f) { return meets(e, f); }) {}
 
 double PairModel::weight(const PointPair& at) const {
   const LinePoint &x = lines.points[at.first], &y = lines.points[at.second];
   return x.weight * y.weight / std::sqrt(2.0 * thick(x.edge, y.edge) * law.range);
 }
 
-std::shared_ptr<const NearEdges> PairModel::search(std::vector<Vec3> p, double skin) const {
-  auto result = std::make_shared<NearEdges>();
+std::shared_ptr<const NeighbourList> PairModel::search(std::vector<Vec3> p, double skin) const {
+  auto result = std::make_shared<NeighbourList>();
   // What is not finite ends the step by its own name.
   if (!all_finite(p)) return result;
   std::vector<collision::Box> boxes;
@@ -93,16 +93,16 @@ std::shared_ptr<const NearEdges> PairModel::search(std::vector<Vec3> p, double s
 }
 
 double PairModel::slack(const std::vector<Vec3>& p, std::uint32_t e, std::uint32_t f) const {
-  const Kin* kin = kinship.between(e, f);
+  const Excluded* excluded = exclusions.between(e, f);
   const std::uint32_t a = lines.edges[e].global, c = lines.edges[f].global;
   const double apart = distance(p[a], p[a + 1], p[c], p[c + 1]) - meets(e, f);
   // Edges that share a node are near each other for ever: what counts is points that may touch.
-  if (kin == nullptr || apart > 0.0) return apart;
+  if (excluded == nullptr || apart > 0.0) return apart;
   const LineEdge &first = lines.edges[e], &second = lines.edges[f];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = first.first; i < first.end; ++i)
     for (std::size_t j = second.first; j < second.end; ++j)
-      if (!kinship.kin(*kin, i - first.first, j - second.first, second.end - second.first))
+      if (!exclusions.excludes(*excluded, i - first.first, j - second.first, second.end - second.first))
         least = std::min(least, (point(p, i) - point(p, j)).squaredNorm());
   return std::sqrt(least) - meets(e, f);
 }

@@ -4,13 +4,13 @@
 
 #include "contact/by_key.h"
 #include "contact/response.h"
-#include "kinship.h"
+#include "exclusions.h"
 
 namespace tendril::contact {
 
 /// Pairs of edges that may come near each other while no node moves by more than half the skin from where it
 /// was, what all have in common aside.
-struct NearEdges {
+struct NeighbourList {
   std::vector<Vec3> p;  ///< where nodes were
   double skin = 0.0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< ascending, the first below the second
@@ -25,11 +25,11 @@ struct PairMeeting {
 
 /// What is remembered besides what is told.
 struct PairLedger final : RodRodMemory {
-  std::vector<Vec3> p;                    ///< of all nodes of rods in contact
-  std::vector<Vec3> m;                    ///< their directors; empty without friction
-  std::shared_ptr<const NearEdges> near;  ///< pairs that are looked at
-  std::vector<double> slack;              ///< of each: the least distance less that where response begins
-  std::vector<PairMeeting> meetings;      ///< by ascending key, with friction
+  std::vector<Vec3> p;                        ///< of all nodes of rods in contact
+  std::vector<Vec3> m;                        ///< their directors; empty without friction
+  std::shared_ptr<const NeighbourList> near;  ///< pairs that are looked at
+  std::vector<double> slack;                  ///< of each: the least distance less that where response begins
+  std::vector<PairMeeting> meetings;          ///< by ascending key, with friction
 };
 
 /// Two points of rods.
@@ -45,7 +45,7 @@ struct PairModel {
   Law law;
   RodLines lines;
   std::vector<double> widest2;  ///< per edge: the square of the way between points
-  Kinship kinship;
+  Exclusions exclusions;
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   std::uint64_t key_of(const PointPair& at) const { return at.first * lines.points.size() + at.second; }
@@ -67,15 +67,15 @@ struct PairModel {
     return between(p[node], p[node + 1], lines.points[i].fraction);
   }
   /// Edges that are nearer than response and skin.
-  std::shared_ptr<const NearEdges> search(std::vector<Vec3> p, double skin) const;
-  /// The distance of two edges less that where response begins; of edges with kin, that of points that are
-  /// none.
+  std::shared_ptr<const NeighbourList> search(std::vector<Vec3> p, double skin) const;
+  /// The distance of two edges less that where response begins; where some of their points are left out,
+  /// that of the others.
   double slack(const std::vector<Vec3>& p, std::uint32_t e, std::uint32_t f) const;
   /// Whether two points whose gap is open kept it so on the straight way from where they were.
   bool reachable(const std::vector<Vec3>& before, const PointPair& now) const;
 
-  /// Calls visit(PointPair) for all points that are not kin, no farther apart than where response begins and
-  /// `pad`; it returns false to end.
+  /// Calls visit(PointPair) for all points that are not left out, no farther apart than where response begins
+  /// and `pad`; it returns false to end.
   template <class Visit>
   bool each_point(const std::vector<Vec3>& p, std::uint32_t e, std::uint32_t f, double pad,
                   Visit&& visit) const;
@@ -99,7 +99,7 @@ bool PairModel::each_point(const std::vector<Vec3>& p, std::uint32_t e, std::uin
   const Vec3 &c = p[second.global], along = p[second.global + 1] - c;
   const double square = along.squaredNorm(), taken = thick(e, f) + margin(e, f);
   const double far = taken + law.range + pad;
-  const Kin* kin = kinship.between(e, f);
+  const Excluded* excluded = exclusions.between(e, f);
   const std::size_t columns = second.end - second.first;
   for (std::size_t i = first.first; i < first.end; ++i) {
     const Vec3 x = point(p, i), from = x - c;
@@ -113,7 +113,7 @@ bool PairModel::each_point(const std::vector<Vec3>& p, std::uint32_t e, std::uin
       if (fraction < at - wide) continue;
       if (fraction > at + wide) break;
       const Vec3 apart = from - fraction * along;
-      if (kin && kinship.kin(*kin, i - first.first, j - second.first, columns)) continue;
+      if (excluded && exclusions.excludes(*excluded, i - first.first, j - second.first, columns)) continue;
       if (!visit(PointPair{i, j, apart, apart.norm() - taken})) return false;
     }
   }

@@ -1,4 +1,4 @@
-#include "kinship.h"
+#include "exclusions.h"
 
 #include <tendril/base/error.h>
 
@@ -13,24 +13,24 @@
 namespace tendril::contact {
 namespace {
 
-constexpr double kKin = 0.5 * std::numbers::pi, kNearKin = 8.0, kRestsNear = 1.5;
+constexpr double kAlong = 0.5 * std::numbers::pi, kNearAlong = 8.0, kRestsNear = 1.5;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::uint64_t key_of(std::uint32_t first, std::uint32_t second) {
   return (std::uint64_t{first} << 32) | second;
 }
 
-struct Road {
+struct Link {
   std::uint32_t to;
   double length;
 };
 
-/// Nodes of all rods in contact, and the roads between them.
-using Roads = std::vector<std::vector<Road>>;
+/// Nodes of all rods in contact, and the graph between them.
+using Graph = std::vector<std::vector<Link>>;
 
-void connect(Roads& roads, std::uint32_t a, std::uint32_t b, double length) {
-  roads[a].push_back({b, length});
-  roads[b].push_back({a, length});
+void connect(Graph& graph, std::uint32_t a, std::uint32_t b, double length) {
+  graph[a].push_back({b, length});
+  graph[b].push_back({a, length});
 }
 
 /// The node that a joint names on one side, among those of the lines.
@@ -49,19 +49,19 @@ std::uint32_t node_of(const RodLines& lines, const RodJoint& joint, std::size_t 
   throw InvalidInput(place + ".rod", std::to_string(joint.rod[side]), "a rod in contact");
 }
 
-Roads roads_of(const RodLines& lines, const std::vector<RodJoint>& joints) {
-  Roads roads(lines.nodes);
+Graph graph_of(const RodLines& lines, const std::vector<RodJoint>& joints) {
+  Graph graph(lines.nodes);
   for (const LineEdge& edge : lines.edges) {
     const std::vector<Vec3>& rest = lines.rods[edge.rod].rest;
-    connect(roads, edge.global, edge.global + 1, (rest[edge.node + 1] - rest[edge.node]).norm());
+    connect(graph, edge.global, edge.global + 1, (rest[edge.node + 1] - rest[edge.node]).norm());
   }
   for (std::size_t i = 0; i < joints.size(); ++i)
-    connect(roads, node_of(lines, joints[i], 0, i), node_of(lines, joints[i], 1, i), 0.0);
-  return roads;
+    connect(graph, node_of(lines, joints[i], 0, i), node_of(lines, joints[i], 1, i), 0.0);
+  return graph;
 }
 
 /// The shortest ways from a node to those within the reach [Dijkstra 1959].
-std::map<std::uint32_t, double> ways_from(const Roads& roads, std::uint32_t start, double reach) {
+std::map<std::uint32_t, double> ways_from(const Graph& graph, std::uint32_t start, double reach) {
   using Stop = std::pair<double, std::uint32_t>;
   std::priority_queue<Stop, std::vector<Stop>, std::greater<>> open;
   std::map<std::uint32_t, double> reached;
@@ -70,8 +70,8 @@ std::map<std::uint32_t, double> ways_from(const Roads& roads, std::uint32_t star
     const auto [way, node] = open.top();
     open.pop();
     if (!reached.emplace(node, way).second) continue;
-    for (const Road& road : roads[node])
-      if (way + road.length <= reach) open.emplace(way + road.length, road.to);
+    for (const Link& link : graph[node])
+      if (way + link.length <= reach) open.emplace(way + link.length, link.to);
   }
   return reached;
 }
@@ -83,12 +83,12 @@ struct Ways {
 };
 
 /// To the edges after e that are within the reach.
-std::map<std::uint32_t, Ways> ways_of(const RodLines& lines, const Roads& roads,
+std::map<std::uint32_t, Ways> ways_of(const RodLines& lines, const Graph& graph,
                                       const std::vector<std::vector<std::uint32_t>>& edges_at,
                                       std::uint32_t e, double reach) {
   std::map<std::uint32_t, Ways> found;
   for (const std::uint32_t end : {0u, 1u})
-    for (const auto& [node, way] : ways_from(roads, lines.edges[e].global + end, reach))
+    for (const auto& [node, way] : ways_from(graph, lines.edges[e].global + end, reach))
       for (const std::uint32_t f : edges_at[node])
         if (f > e) found[f].way[end][node - lines.edges[f].global] = way;
   return found;
@@ -108,37 +108,37 @@ Resting resting(const RodLines& lines, std::size_t point) {
   return {between(a, b, at.fraction), {at.fraction * length, (1.0 - at.fraction) * length}};
 }
 
-bool are_kin(const Resting& x, const Resting& y, const Ways& ways, double meets) {
+bool are_excluded(const Resting& x, const Resting& y, const Ways& ways, double meets) {
   double way = kInfinite;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) way = std::min(way, x.from[i] + ways.way[i][j] + y.from[j]);
-  return way < kKin * meets || (way <= kNearKin * meets && (x.x - y.x).norm() < kRestsNear * meets);
+  return way < kAlong * meets || (way <= kNearAlong * meets && (x.x - y.x).norm() < kRestsNear * meets);
 }
 
 }  // namespace
 
-Kinship::Kinship(const RodLines& lines, const std::vector<RodJoint>& joints, double most,
-                 const Meets& meets) {
-  const Roads roads = roads_of(lines, joints);
+Exclusions::Exclusions(const RodLines& lines, const std::vector<RodJoint>& joints, double most,
+                       const Meets& meets) {
+  const Graph graph = graph_of(lines, joints);
   std::vector<std::vector<std::uint32_t>> edges_at(lines.nodes);
   for (std::uint32_t e = 0; e < lines.edges.size(); ++e)
     for (const std::uint32_t end : {0u, 1u}) edges_at[lines.edges[e].global + end].push_back(e);
   for (std::uint32_t e = 0; e < lines.edges.size(); ++e)
-    for (const auto& [f, ways] : ways_of(lines, roads, edges_at, e, kNearKin * most)) {
+    for (const auto& [f, ways] : ways_of(lines, graph, edges_at, e, kNearAlong * most)) {
       const LineEdge &first = lines.edges[e], &second = lines.edges[f];
-      const std::size_t begin = kin_.size();
+      const std::size_t begin = excluded_.size();
       for (std::size_t i = first.first; i < first.end; ++i)
         for (std::size_t j = second.first; j < second.end; ++j)
-          kin_.push_back(are_kin(resting(lines, i), resting(lines, j), ways, meets(e, f)));
-      const auto from = kin_.begin() + static_cast<std::ptrdiff_t>(begin);
-      const bool whole = std::find(from, kin_.end(), 0) == kin_.end();
-      const bool none = std::find(from, kin_.end(), 1) == kin_.end();
-      if (whole || none) kin_.resize(begin);
+          excluded_.push_back(are_excluded(resting(lines, i), resting(lines, j), ways, meets(e, f)));
+      const auto from = excluded_.begin() + static_cast<std::ptrdiff_t>(begin);
+      const bool whole = std::find(from, excluded_.end(), 0) == excluded_.end();
+      const bool none = std::find(from, excluded_.end(), 1) == excluded_.end();
+      if (whole || none) excluded_.resize(begin);
       if (!none) edges_.push_back({key_of(e, f), whole, begin});
     }
 }
 
-const Kin* Kinship::between(std::uint32_t first, std::uint32_t second) const {
+const Excluded* Exclusions::between(std::uint32_t first, std::uint32_t second) const {
   return find_key(edges_, key_of(first, second));
 }
 
