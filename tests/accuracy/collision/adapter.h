@@ -29,6 +29,12 @@ class MeshPeer {
   virtual Said meets(const Vec3& /*centre*/, double /*radius*/) { return {}; }
 };
 
+/// For Adapter::mesh.
+template <class Mesh>
+std::unique_ptr<MeshPeer> mesh_of(Points points, Triangles triangles) {
+  return std::make_unique<Mesh>(points, triangles);
+}
+
 /// Null where the library has no such test. All sets are closed.
 struct Adapter {
   std::string name;

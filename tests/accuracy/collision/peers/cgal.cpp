@@ -70,9 +70,7 @@ Adapter cgal_adapter() {
   out.distance = [](const Corners& a, const Corners& b) {
     return std::sqrt(CGAL::squared_distance(triangle(a), triangle(b)));
   };
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.holds = out.meets = true;
   return out;
 }

@@ -107,9 +107,7 @@ class Mesh : public MeshPeer {
 
 Adapter embree_adapter() {
   Adapter out{"Embree " RTC_VERSION_STRING ", float"};
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.holds = out.meets = true;
   return out;
 }

@@ -57,9 +57,7 @@ Adapter fcl_adapter() {
     Vec3 p, q;
     return fcl::detail::TriangleDistance<double>::triDistance(a.data(), b.data(), p, q);
   };
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.meets = true;
   out.straight = moving;
   return out;

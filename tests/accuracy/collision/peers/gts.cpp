@@ -97,9 +97,7 @@ Adapter gts_adapter() {
   out.proper = true;
   out.triangles = triangles;
   out.segment = segment;
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.holds = true;
   return out;
 }

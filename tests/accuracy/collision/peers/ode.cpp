@@ -69,9 +69,7 @@ class Mesh : public MeshPeer {
 
 Adapter ode_adapter() {
   Adapter out{"ODE"};
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.meets = true;
   return out;
 }

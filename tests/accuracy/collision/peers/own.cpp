@@ -48,9 +48,7 @@ Adapter tendril_adapter() {
   out.triangles = triangles;
   out.segment = segment;
   out.distance = distance;
-  out.mesh = [](Points points, Triangles t) -> std::unique_ptr<MeshPeer> {
-    return std::make_unique<Mesh>(points, t);
-  };
+  out.mesh = mesh_of<Mesh>;
   out.holds = out.meets = true;
   out.straight = [](auto features, const auto& paths) {
     return said(exact::first_meeting<1>(features, paths));
