@@ -5,7 +5,8 @@
 namespace tendril::runner {
 
 /// The curve-pairs of the files of axes at rest and, one file for each or none, of their poses. Each posed
-/// one is on the knots of its rest, else refused with the words given.
+/// one is on the knots of its rest, else refused with the words given, unless these are empty. Refused, too,
+/// are curve-pairs whose frames jump, naming the nodes.
 struct Axes {
   std::vector<CurvePair> rest, posed;
 };

@@ -10,9 +10,6 @@
 
 namespace tendril::scene {
 
-/// Continuously where the mesh follows several curve-pairs; else each vertex by its nearest point.
-TENDRIL_SCENE_API bind::BindMode default_mode(const SceneFile& file);
-
 /// The scene's mesh, or an empty one where it names none.
 /// \param file   the scene
 /// \param notes  gets what is odd about the mesh's file but not refused; or null, and it is refused
@@ -31,7 +28,8 @@ class TENDRIL_SCENE_API BoundMesh {
   /// \param mode     how vertices near jumps of the nearest point are bound
   /// \param threads  1 to 256; the same bits for any number
   ///
-  /// Throws InvalidInput that names the mesh's file.
+  /// Throws InvalidInput that names the mesh's file; SceneError where the frames of a curve-pair jump at
+  /// rest.
   BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMode mode, int threads = 1);
 
   /// Moves the mesh to the curve-pairs. Cost: that of bind::Binding::update.

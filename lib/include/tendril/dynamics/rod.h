@@ -66,7 +66,8 @@ TENDRIL_CORE_API Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3
                               const SpringConstants& springs);
 
 /// Orientation masses for a chain: p_i + offset * (component of `side` across the tangent there).
-/// InvalidInput where `side` lies along a tangent, naming the node.
+/// InvalidInput where `side` lies along a tangent, naming the node, and where the offset of one node, carried
+/// by the smallest rotation of the tangents, is more than 90 degrees off the next one's, naming both.
 TENDRIL_CORE_API std::vector<Vec3> orientation_towards(const std::vector<Vec3>& p, const Vec3& side,
                                                        double offset);
 

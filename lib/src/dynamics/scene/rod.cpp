@@ -1,5 +1,5 @@
 #include <tendril/base/error.h>
-#include <tendril/curve/frames.h>
+#include <tendril/curve/frame_jump.h>
 #include <tendril/dynamics/rod.h>
 
 #include <cmath>
@@ -7,6 +7,8 @@
 
 namespace tendril {
 namespace {
+
+constexpr double kFolds = -0.8;  ///< cosine of the tangents of neighbours beyond which a chain folds
 
 void check_positive(const char* what, double value) {
   if (!(value > 0.0) || !std::isfinite(value))
@@ -83,11 +85,21 @@ Rod make_rod(const std::vector<Vec3>& p, const std::vector<Vec3>& q, const Sprin
 std::vector<Vec3> orientation_towards(const std::vector<Vec3>& p, const Vec3& side, double offset) {
   const PolygonTangents tangents = polygon_tangents(p);
   std::vector<Vec3> q;
+  Frame before;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const FrameChoice choice = frame_towards(tangents.t[i], side);
     if (choice.status != FrameStatus::ok)
       throw InvalidInput("orientation at node " + std::to_string(i), "along the tangent there, or zero",
                          "a direction across the chain");
+    // Where the direction passes from one side of the chain to the other, no node need lie along it.
+    if (i > 0 && std::abs(turn_between(before, choice.frame)) > 0.5 * M_PI + 1e-9)
+      throw InvalidInput(
+          "orientation between nodes " + std::to_string(i - 1) + " and " + std::to_string(i),
+          before.z.dot(choice.frame.z) < kFolds
+              ? "the chain folds back there"
+              : "the chain turns past its direction: its frame would turn by more than 90 degrees",
+          "a direction that no part of the chain has, or orientation points");
+    before = choice.frame;
     q.push_back(p[i] + offset * choice.frame.y);
   }
   return q;
