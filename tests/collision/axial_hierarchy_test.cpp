@@ -112,6 +112,22 @@ std::vector<Pose> degenerate_poses(const Pose& rest, Random& random) {
   return out;
 }
 
+/// Frames turned about the tangents by up to many turns, of the same curves one after another, and not at
+/// all again.
+std::vector<Pose> turned_poses(const Pose& rest) {
+  std::vector<Pose> out;
+  for (const double each_control : {1.0, 2.5, 40.0, 0.0}) {
+    out.push_back(rest);
+    for (CurvePair& pair : out.back()) {
+      std::vector<double> turn;
+      for (std::size_t i = 0; i < pair.primary().control_points().size(); ++i)
+        turn.push_back(each_control * static_cast<double>(i));
+      pair.set_turn(each_control > 0.0 ? turn : std::vector<double>{});
+    }
+  }
+  return out;
+}
+
 BoundMesh bound_tube() {
   return {{test::straight_pair(8, 0.05)}, test::tube(40, 24, 0.1)};
 }
@@ -138,6 +154,8 @@ void hold(const BoundMesh& mesh, std::uint64_t seed) {
   Random random(seed);
   for (int i = 0; i < kPoses; ++i) add(mesh, cells, random_pose(mesh.rest, random), sum);
   for (const Pose& pose : degenerate_poses(mesh.rest, random)) add(mesh, cells, pose, sum);
+  add(mesh, cells, mesh.rest, sum);
+  for (const Pose& pose : turned_poses(mesh.rest)) add(mesh, cells, pose, sum);
   EXPECT_EQ(sum.missed, 0);
   EXPECT_EQ(sum.other, 0);
   EXPECT_GT(sum.culls, 27000L * kPoses);

@@ -43,6 +43,9 @@ class Evaluator {
   Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
 
  private:
+  /// Slots of one run; true when one was left to the second pass.
+  static bool evaluate_run(const Piece<T>& piece, bool off, const RecordsView<T>& records, std::size_t count,
+                           const ColumnsView<T>& out);
   void mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
                        const ColumnsView<T>& out) const;
   Triple<T> evaluate_by_rule(std::uint32_t entry) const;
@@ -79,6 +82,21 @@ void Evaluator<T>::mend_degenerate(const Piece<T>& piece, const Order& order, co
 }
 
 template <class T>
+bool Evaluator<T>::evaluate_run(const Piece<T>& piece, bool off, const RecordsView<T>& records,
+                                std::size_t count, const ColumnsView<T>& out) {
+  if (!piece.turned) return sweep(piece, off, records, out, count);
+  constexpr std::size_t kBlock = 256;
+  std::array<T, kBlock> u, v;
+  bool fault = false;
+  for (std::size_t at = 0; at < count; at += kBlock) {
+    const std::size_t some = std::min(kBlock, count - at);
+    const RecordsView<T> turned = turn_records(piece, records.from(at), some, u.data(), v.data());
+    fault = sweep(piece, off, turned, out.from(at), some) || fault;
+  }
+  return fault;
+}
+
+template <class T>
 void Evaluator<T>::evaluate(const Pieces& pieces, const Order& order, const Records<T>& records,
                             std::size_t begin, std::size_t end, const ColumnsView<T>& out) const {
   auto run = std::upper_bound(order.runs.begin(), order.runs.end(), begin,
@@ -87,7 +105,7 @@ void Evaluator<T>::evaluate(const Pieces& pieces, const Order& order, const Reco
     const Run part{run->span, std::max(run->begin, static_cast<std::uint32_t>(begin)),
                    std::min(run->end, static_cast<std::uint32_t>(end)), run->off};
     const ColumnsView<T> to = out.from(part.begin - begin);
-    if (sweep(pieces[part.span], part.off, records.from(part.begin), to, part.end - part.begin))
+    if (evaluate_run(pieces[part.span], part.off, records.from(part.begin), part.end - part.begin, to))
       mend_degenerate(pieces[part.span], order, records, part, to);
   }
 }
@@ -97,7 +115,11 @@ template <class PieceOf>
 Triple<T> Evaluator<T>::evaluate_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
                                       std::size_t slot) const {
   const Run& run = order.run_of(slot);
-  const Evaluated<T> evaluated = evaluate_one(piece_of(run.span), run.off, records.from(slot));
+  const Piece<T>& piece = piece_of(run.span);
+  T u, v;
+  const RecordsView<T> given = records.from(slot);
+  const RecordsView<T> record = piece.turned ? turn_records(piece, given, 1, &u, &v) : given;
+  const Evaluated<T> evaluated = evaluate_one(piece, run.off, record);
   return evaluated.fault ? evaluate_by_rule(order.entry[slot]) : evaluated.point;
 }
 

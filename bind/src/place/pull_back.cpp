@@ -34,7 +34,7 @@ std::vector<Run> parts_of(const Order& order) {
 template <class ForceOf>
 void add_part(const Piece<double>& piece, const Order& order, const Records<double>& records, const Run& part,
               const ForceOf& force_of, Moments& to) {
-  std::array<double, kMomentChunk> x, y, z;
+  std::array<double, kMomentChunk> x, y, z, u, v;
   for (std::size_t at = part.begin; at < part.end; at += kMomentChunk) {
     const std::size_t count = std::min<std::size_t>(kMomentChunk, part.end - at);
     for (std::size_t i = 0; i < count; ++i) {
@@ -43,7 +43,10 @@ void add_part(const Piece<double>& piece, const Order& order, const Records<doub
       y[i] = f.y();
       z[i] = f.z();
     }
-    add_moments(piece, records.from(at), {x.data(), y.data(), z.data()}, count, to);
+    const RecordsView<double> given = records.from(at);
+    const RecordsView<double> some =
+        piece.turned ? turn_records(piece, given, count, u.data(), v.data()) : given;
+    add_moments(piece, some, {x.data(), y.data(), z.data()}, count, to);
   }
 }
 
@@ -128,7 +131,11 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
   std::vector<Moments> moments(pieces.size());
   const auto add = [&](const Order& order, const Records<double>& records, std::size_t slot, const Vec3& f) {
     const std::uint32_t span = order.run_of(slot).span;
-    add_moments(pieces[span], records.from(slot), {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
+    double u, v;
+    const RecordsView<double> given = records.from(slot);
+    const RecordsView<double> one =
+        pieces[span].turned ? turn_records(pieces[span], given, 1, &u, &v) : given;
+    add_moments(pieces[span], one, {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);

@@ -98,10 +98,33 @@ Piece<T> pose(const Span& span, const CurvePair& posed) {
   combine(span, from_base, piece.c, base);
   combine(span, offset, piece.d, Vec3::Zero());
   limit(largest(from_base, span.terms()), piece);
+  piece.turned = !posed.turn().empty();
+  for (std::size_t j = 0; piece.turned && j < span.terms(); ++j)
+    for (std::size_t i = 0; i < span.terms(); ++i)
+      piece.turn[j] += span.power[j][i] * posed.turn()[span.first + i];
   return piece;
+}
+
+/// u l_x + v l_y of the turned frame, l_x = cos x + sin y and l_y = cos y - sin x, in terms of x and y.
+template <class T>
+RecordsView<T> turn_records(const Piece<T>& piece, const RecordsView<T>& records, std::size_t count, T* u,
+                            T* v) {
+  for (std::size_t i = 0; i < count; ++i) {
+    double angle = 0.0;
+    for (std::size_t j = kMostTerms; j-- > 0;)
+      angle = piece.turn[j] + static_cast<double>(records.s[i]) * angle;
+    const T c = static_cast<T>(std::cos(angle)), s = static_cast<T>(std::sin(angle));
+    u[i] = c * records.u[i] - s * records.v[i];
+    v[i] = s * records.u[i] + c * records.v[i];
+  }
+  return {records.s, u, v, records.w};
 }
 
 template Piece<double> pose(const Span&, const CurvePair&);
 template Piece<float> pose(const Span&, const CurvePair&);
+template RecordsView<double> turn_records(const Piece<double>&, const RecordsView<double>&, std::size_t,
+                                          double*, double*);
+template RecordsView<float> turn_records(const Piece<float>&, const RecordsView<float>&, std::size_t, float*,
+                                         float*);
 
 }  // namespace tendril::bind

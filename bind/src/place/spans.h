@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "records.h"
+
 namespace tendril::bind {
 
 inline constexpr std::size_t kMostTerms = kMaxDegree + 1;
@@ -38,10 +40,18 @@ struct Piece {
   double scale = 0.0;  ///< that power of 2
   /// Squares of |dc/ds| and of |offset x dc/ds|; what is not above them the loops leave to the second pass.
   T least_speed = T(0), least_area = T(0);
+  bool turned = false;  ///< whether the frame is turned, by sum_j s^j turn_j [rad]
+  std::array<double, kMostTerms> turn{};
 };
 
 template <class T>
 Piece<T> pose(const Span& span, const CurvePair& posed);
+
+/// The records of a turned piece as they are in its frames before the turn: s and w as they were, u and v at
+/// the two places given. A point's are the same bits alone and among others.
+template <class T>
+RecordsView<T> turn_records(const Piece<T>& piece, const RecordsView<T>& records, std::size_t count, T* u,
+                            T* v);
 
 template <class T>
 std::vector<Piece<T>> pose(const std::vector<Span>& spans, std::span<const CurvePair> posed) {

@@ -1,9 +1,19 @@
+#include <tendril/base/error.h>
 #include <tendril/curve/curve_pair.h>
+
+#include <cmath>
+#include <string>
 
 namespace tendril {
 namespace {
 
 constexpr double kZeroSpeed = 1e-14;
+
+/// About z, so that the side y goes towards -x.
+Frame turned(const Frame& f, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * f.x + s * f.y, c * f.y - s * f.x, f.z};
+}
 
 }  // namespace
 
@@ -16,6 +26,16 @@ void CurvePair::set_control_points(Points primary, Points orientation) {
   primary_.set_control_points(primary);
   orientation_.set_control_points(orientation);
   measure();
+}
+
+void CurvePair::set_turn(std::vector<double> turn) {
+  const std::size_t count = primary_.control_points().size();
+  if (!turn.empty() && turn.size() != count)
+    throw InvalidInput("turn", std::to_string(turn.size()) + " values", std::to_string(count) + ", or none");
+  for (std::size_t i = 0; i < turn.size(); ++i)
+    if (!std::isfinite(turn[i]))
+      throw InvalidInput("turn[" + std::to_string(i) + "]", "not finite", "a finite angle");
+  turn_ = std::move(turn);
 }
 
 void CurvePair::measure() {
@@ -43,6 +63,12 @@ CurveFrame CurvePair::frame(const Basis& basis, double t) const {
   const FrameChoice choice =
       frame_towards(tangent, combine(basis, p, orientation_.control_points()) - result.origin);
   result.frame = choice.frame;
+  if (!turn_.empty()) {
+    double angle = 0.0;
+    for (int j = 0; j <= p; ++j)
+      angle += basis.value[0][static_cast<std::size_t>(j)] * turn_[static_cast<std::size_t>(basis.first + j)];
+    result.frame = turned(choice.frame, angle);
+  }
   result.sine = choice.sine;
   result.status = moving ? choice.status : FrameStatus::zero_speed;
   return result;

@@ -84,7 +84,7 @@ SlabTable::SlabTable(std::span<const CurvePair> rest, std::size_t wanted) {
 
 void SlabTable::add_pair(const CurvePair& rest, std::size_t per_span) {
   const KnotVector& knots = rest.knots();
-  PairSpans pair{knots, std::vector<std::uint32_t>(knots.knots().size()), {}, {}, 0};
+  PairSpans pair{knots, std::vector<std::uint32_t>(knots.knots().size()), {}, {}, {}, 0};
   pair.first_span = static_cast<std::uint32_t>(spans_.size());
   for (const int at : knots.nonempty_spans()) {
     const auto index = static_cast<std::size_t>(at);
@@ -139,8 +139,10 @@ Box SlabTable::box(std::uint32_t first, std::uint32_t last, const AxialRange& ra
 }
 
 void SlabTable::change(Span& span, const CurvePair& posed, std::uint32_t frame) {
+  // A frame turned beyond its orientation curve counts as none: about it points may be anywhere.
+  const BSpline& side = posed.turn().empty() ? posed.orientation() : posed.primary();
   span.controls = controls_of(posed.primary().control_points().data() + span.first_control,
-                              posed.orientation().control_points().data() + span.first_control, span.count);
+                              side.control_points().data() + span.first_control, span.count);
   span.whole = make(span, span.weights);
   span.changed = frame;
   span.framed = true;
@@ -168,13 +170,17 @@ void SlabTable::pose(std::span<const CurvePair> posed, std::uint32_t frame) {
              same(v.data() + from, pair.orientation.data() + from, count);
     };
     // Where a frame is near degenerate, all control points of its curve-pair may have a say.
-    const bool kept = span.framed ? unmoved(span.first_control, span.count) : unmoved(0, u.size());
+    const bool same_turn = std::ranges::equal(posed[span.pair].turn(), pair.turn);
+    const bool kept = !same_turn    ? false
+                      : span.framed ? unmoved(span.first_control, span.count)
+                                    : unmoved(0, u.size());
     if (!kept) change(span, posed[span.pair], frame);
   }
   for (std::size_t k = 0; k < posed.size(); ++k) {
     const Points u = posed[k].primary().control_points(), v = posed[k].orientation().control_points();
     pairs_[k].primary.assign(u.begin(), u.end());
     pairs_[k].orientation.assign(v.begin(), v.end());
+    pairs_[k].turn.assign(posed[k].turn().begin(), posed[k].turn().end());
   }
 }
 

@@ -38,6 +38,7 @@ class SlabTable {
     KnotVector knots;
     std::vector<std::uint32_t> span_at;  ///< of each knot index
     std::vector<Vec3> primary, orientation;
+    std::vector<double> turn;
     std::uint32_t first_span = 0;
   };
   struct Span {

@@ -10,7 +10,9 @@ namespace tendril {
 /// The axial curve-pairs of rods: primary curves through the masses p_i, orientation curves through the
 /// orientation masses q_i = p_i + a_i m_i + b_i t_i, which move with the node frames as the rest shape has
 /// them. Knots and parameters come from the rest shape and stay (Interpolator). A rod of fewer masses has a
-/// lower degree. World frame, the scene's units; a pair costs O(nodes of its rod).
+/// lower degree. Where an edge is twisted by more than 60 degrees, and more than at rest, the curves of a
+/// State have a turn (CurvePair::set_turn), so that frames follow the unwrapped twist, whatever it is.
+/// World frame, the scene's units; a pair costs O(nodes of its rod).
 class TENDRIL_CORE_API RodCurves {
  public:
   /// Throws InvalidInput, naming the rod, where the rest shape has no frames or no curve passes through it.
@@ -19,7 +21,6 @@ class TENDRIL_CORE_API RodCurves {
   /// \param how     gives the parameters
   explicit RodCurves(std::span<const Rod> rods, int degree = 3,
                      Parametrisation how = Parametrisation::centripetal);
-  /// Those of a system's scene.
   /// Of the rods of a system, which is not kept.
   explicit RodCurves(const System& system, int degree = 3, Parametrisation how = Parametrisation::centripetal)
       : RodCurves(system.scene().rods, degree, how) {}
@@ -38,8 +39,8 @@ class TENDRIL_CORE_API RodCurves {
   void update(const System& system, const State& state, System::Workspace& work,
               std::span<CurvePair> pairs) const;
 
-  /// The curve-pair of a rod at what a force sees. Throws InvalidInput where the rod's twist state is left
-  /// out: it has no directors then, and a force that asks for them says twists().
+  /// The curve-pair of a rod at what a force sees, without turns. Throws InvalidInput where the rod's twist
+  /// state is left out: it has no directors then, and a force that asks for them says twists().
   CurvePair pair(const StateView& state, std::size_t rod) const;
 
   /// Adds what forces on the control points of pair(state, rod) mean for the masses (loads_on_masses): loads
@@ -53,6 +54,7 @@ class TENDRIL_CORE_API RodCurves {
     Interpolator fit;
     std::size_t first;               ///< flat index of its first node
     std::vector<double> by_m, by_t;  ///< q - p in the rest frames
+    std::vector<double> twist;       ///< of each edge at rest [rad]
   };
   std::vector<Vec3> arms(const StateView& state, std::size_t rod) const;
 
