@@ -110,7 +110,8 @@ TEST(TearJudge, CountsFolds) {
   std::vector<Vec3> q = posed;
   for (Vec3& p : q) p.z() += 0.3;
   const CurvePair curled(fit.knots(), fit.solve(posed), fit.solve(q));
-  const JudgeReport report = TearJudge({&pair.rest, 1}, mesh, {}, kSmall).judge({&curled, 1});
+  const JudgeReport report =
+      TearJudge({&pair.rest, 1}, mesh, {.mode = BindMode::nearest}, kSmall).judge({&curled, 1});
   const double share =
       static_cast<double>(report.levels[0].flipped) / static_cast<double>(report.levels[0].faces);
   EXPECT_NEAR(share, 0.25 * 0.9, 0.04);  // the half of one side that lies beyond the radius

@@ -35,7 +35,7 @@ TEST_P(EveryMesh, DoesNotTear) {
   bool nearest_tears = false;
   for (const test::AxisCase& axis : test::tear_axes(mesh.points)) {
     const CurvePair rest = test::tear_pose(axis.rest, 0).rest;
-    const TearJudge nearest({&rest, 1}, mesh, {}),
+    const TearJudge nearest({&rest, 1}, mesh, {.mode = BindMode::nearest}),
         continuous({&rest, 1}, mesh, {.mode = BindMode::continuous});
     for (int pose = 0; pose < test::kTearPoses; ++pose) {
       const CurvePair posed = test::tear_pose(axis.rest, pose).posed;

@@ -22,7 +22,7 @@ enum class BindMode {
 
 /// How points are bound.
 struct BindOptions {
-  BindMode mode = BindMode::nearest;  ///< what a point is bound to
+  BindMode mode = BindMode::continuous;  ///< what a point is bound to
   /// BindMode::continuous: width of the blended zone on either side of the cut locus, relative to a local
   /// scale r: the smallest function on the mesh that is at least the distance d to the axis and falls along
   /// the mesh by at most half the length of the path. r is d but near where the mesh meets its own axis,

@@ -17,6 +17,7 @@ struct CurveFile {
   std::vector<Vec3> masses;             ///< the points of a chain; empty where the file gives control points
   std::optional<Interpolator> through;  ///< what put the curves through them; nothing with control points
   std::string place;                    ///< "file#/pointer", for messages
+  std::string name = {};                ///< as the file calls it; empty where it does not
 };
 
 /// Reads a curve file: JSON with comments, held against curve.schema.json and then built. It gives either

@@ -12,8 +12,8 @@ namespace tendril::scene {
 
 /// How a scene is run. What it computes, the file says.
 struct RunOptions {
-  std::optional<bind::BindMode> mode = {};  ///< default: default_mode
-  std::optional<State> start = {};          ///< default: at rest, at time 0
+  bind::BindMode mode = bind::BindOptions{}.mode;  ///< how the mesh is bound
+  std::optional<State> start = {};                 ///< default: at rest, at time 0
   int threads = 1;  ///< of binding and updates, 1 to 256; the same bits for any number
 };
 

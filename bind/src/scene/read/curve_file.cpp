@@ -47,9 +47,12 @@ CurveFile from_masses(const JsonNode& file, int degree, const CurveFile* rest) {
 
 CurveFile one_curve(const JsonNode& curve, const CurveFile* rest) {
   const int degree = curve.has("degree") ? static_cast<int>(curve.at("degree").integer(1, kMaxDegree)) : 3;
-  if (curve.has("control_points")) return from_control_points(curve, degree);
-  if (curve.has("points")) return from_masses(curve, degree, rest);
-  curve.refuse("neither points nor control points", "the key 'points' or 'control_points'");
+  if (!curve.has("control_points") && !curve.has("points"))
+    curve.refuse("neither points nor control points", "the key 'points' or 'control_points'");
+  CurveFile out =
+      curve.has("control_points") ? from_control_points(curve, degree) : from_masses(curve, degree, rest);
+  out.name = curve.text_or("name", "");
+  return out;
 }
 
 Json curve_json(const std::string& text, const std::string& path) {

@@ -1,4 +1,5 @@
 #include <tendril/bind/import.h>
+#include <tendril/curve/frame_jump.h>
 #include <tendril/dynamics/rod_curves.h>
 #include <tendril/scene/bound_mesh.h>
 
@@ -15,8 +16,12 @@ bind::Binding bind_at_rest(const SceneFile& file, const bind::PolygonMesh& mesh,
                            int threads) {
   const RodCurves curves = curves_of(file);
   std::vector<CurvePair> rest;
-  for (const std::size_t k : file.bound_to)
+  for (const std::size_t k : file.bound_to) {
     rest.push_back(curves.through(k, file.scene.rods.at(k).p, file.scene.rods[k].q));
+    if (const auto jump = find_frame_jump(rest.back(), curves.parameters(k)))
+      throw in_scene(file, InvalidInput("rods[" + std::to_string(k) + "]", describe(*jump, "nodes"),
+                                        "frames that carry on along what the mesh follows"));
+  }
   try {
     return {rest, mesh, bind::BindOptions{.mode = mode, .threads = threads}};
   } catch (const InvalidInput& error) {
@@ -61,10 +66,6 @@ std::vector<std::size_t> beyond_reach(const bind::Binding& binding, std::span<co
 }
 
 }  // namespace
-
-bind::BindMode default_mode(const SceneFile& file) {
-  return file.bound_to.size() > 1 ? bind::BindMode::continuous : bind::BindMode::nearest;
-}
 
 bind::PolygonMesh read_scene_mesh(const SceneFile& file, std::vector<std::string>* notes) {
   if (file.mesh.empty()) return {};

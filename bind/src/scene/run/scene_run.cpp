@@ -59,7 +59,7 @@ struct SceneRun::Implementation : Follower {
         threads(options.threads) {
     if (surface.points.empty()) return;
     const Stopwatch watch(seconds.bind);
-    mesh.emplace(file, std::move(surface), options.mode.value_or(default_mode(file)), threads);
+    mesh.emplace(file, std::move(surface), options.mode, threads);
   }
 
   void follow(double, std::span<const CurvePair>) override {
