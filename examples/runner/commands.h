@@ -17,6 +17,7 @@ struct Command {
 
 Command run_command(CLI::App& parent);
 Command deform_command(CLI::App& parent);
+Command pose_command(CLI::App& parent);
 Command project_command(CLI::App& parent);
 Command check_command(CLI::App& parent);
 Command axis_command(CLI::App& parent);

@@ -31,7 +31,8 @@ int run_program(int argc, const char* const* argv) {
   const std::vector<Command> commands{run_command(app),     axis_command(app),    deform_command(app),
                                       project_command(app), check_command(app),   bind_command(app),
                                       render_command(app),  repair_command(app),  report_command(app),
-                                      statics_command(app), collide_command(app), accuracy_command(app)};
+                                      statics_command(app), collide_command(app), accuracy_command(app),
+                                      pose_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

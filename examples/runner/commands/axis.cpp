@@ -15,7 +15,7 @@ namespace tendril::runner {
 namespace {
 
 struct Options {
-  std::string mesh, out, picture;
+  std::string mesh, out, picture, up = "y";
   axis::AxisOptions find;
   scene::ViewOptions view;
   int threads = 0;
@@ -112,8 +112,10 @@ void draw_tree(const Options& options, const bind::PolygonMesh& mesh, const axis
   for (const axis::AxisCurve& curve : tree.curves)
     for (Strand& strand : axis_strands(axis::pair_of(curve), curve.points, 0.0025 * fit.camera().size))
       drawing.over.push_back(std::move(strand));
-  write_file_whole(options.picture,
-                   png_bytes(draw(drawing, fit.camera(), options.view, thread_count(options.threads))));
+  Picture picture = draw(drawing, fit.camera(), options.view, thread_count(options.threads));
+  for (std::size_t k = 0; k < tree.curves.size(); ++k)
+    name_axis(picture, fit.camera(), axis::pair_of(tree.curves[k]), name_of(k));
+  write_file_whole(options.picture, png_bytes(picture));
 }
 
 int find(const Options& options) {
@@ -160,9 +162,14 @@ Command axis_command(CLI::App& parent) {
   app->add_option("--picture", options->picture, "PNG file: the mesh with the curves");
   app->add_option("--yaw", options->view.yaw, "degrees, of the picture")->capture_default_str();
   app->add_option("--pitch", options->view.pitch, "degrees, of the picture")->capture_default_str();
+  app->add_option("--up", options->up, "the axis that points up in it: x, y, z, -x, -y, -z")
+      ->capture_default_str();
   app->add_option("--threads", options->threads, "threads for the picture, 0 for all");
   app->add_flag("--json", options->json, "print JSON");
-  return {app, [options] { return find(*options); }};
+  return {app, [options] {
+            options->view.up = up_direction(options->up);
+            return find(*options);
+          }};
 }
 
 }  // namespace tendril::runner

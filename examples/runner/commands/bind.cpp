@@ -1,10 +1,12 @@
 #include "commands.h"
+#include "commands/mode.h"
 #include "draw/drawing.h"
 #include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
+#include <tendril/bind/distortion.h>
 #include <tendril/bind/judge.h>
 
 #include <cmath>
@@ -17,7 +19,8 @@ namespace {
 struct Options {
   std::string mesh, picture;
   std::vector<std::string> axes, poses;
-  bool nearest = false, json = false;
+  ModeFlags mode;
+  bool json = false;
   double band = bind::BindOptions{}.band;
   int refinements = bind::JudgeOptions{}.refinements, threads = 0;
 };
@@ -30,7 +33,16 @@ OrderedJson to_json(const bind::BindReport& report) {
           {"degenerate", report.degenerate}};
 }
 
-OrderedJson to_json(const bind::JudgeReport& report) {
+/// Share of a mesh's area that a pose may spoil and still be right.
+constexpr double kMostSpoilt = 1e-3;
+
+/// What the judge finds and what becomes of the triangles, in a word.
+const char* verdict_of(const bind::JudgeReport& report, const bind::Distortion& distortion) {
+  if (report.verdict == bind::TearVerdict::tear) return "tear";
+  return distortion.spoilt > kMostSpoilt ? "crumpled" : "right";
+}
+
+OrderedJson to_json(const bind::JudgeReport& report, const bind::Distortion& distortion) {
   OrderedJson levels = OrderedJson::array();
   for (const bind::JudgeLevel& level : report.levels)
     levels.push_back({{"points", level.points},
@@ -45,17 +57,27 @@ OrderedJson to_json(const bind::JudgeReport& report) {
   OrderedJson worst = OrderedJson::array();
   for (const bind::WorstEdge& edge : report.worst)
     worst.push_back({{"points", {edge.a, edge.b}}, {"stretch", edge.stretch}});
-  return {{"verdict", report.verdict == bind::TearVerdict::tear ? "tear" : "smooth"},
+  return {{"verdict", verdict_of(report, distortion)},
           {"growth", report.growth},
           {"growth_of_max",
            std::isfinite(report.growth_of_max) ? OrderedJson(report.growth_of_max) : OrderedJson()},
           {"exponent", report.exponent},
+          {"distortion", runner::to_json(distortion)},
           {"levels", levels},
           {"worst", worst}};
 }
 
-void print_row(const char* name, const bind::JudgeReport& report) {
-  std::printf("%-11s %s\n", name, report.verdict == bind::TearVerdict::tear ? "tear" : "smooth");
+void print_row(const char* name, const bind::JudgeReport& report, const bind::Distortion& distortion) {
+  std::printf("%-11s %s\n", name, verdict_of(report, distortion));
+  std::printf(
+      "  %.2g %% of the mesh spoilt: %zu triangle(s) folded, %zu stretched and %zu crushed more than "
+      "tenfold\n",
+      100.0 * distortion.spoilt, distortion.folded, distortion.stretched, distortion.crushed);
+  for (std::size_t k = 0; k < std::min<std::size_t>(5, distortion.zones.size()); ++k) {
+    const bind::SpoiltZone& zone = distortion.zones[k];
+    std::printf("    %.2g %% about %g %g %g, radius %.3g\n", 100.0 * zone.area, zone.centre.x(),
+                zone.centre.y(), zone.centre.z(), zone.radius);
+  }
   std::printf("  %10s %8s %8s %8s %8s %8s %8s %8s %9s %8s\n", "edges", "p50", "p90", "p99", "p99.9", "p99.99",
               "max", "> limit", "flipped", "rest");
   for (const bind::JudgeLevel& level : report.levels) {
@@ -123,8 +145,7 @@ int judge(const Options& options) {
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes = read_axes(options.axes, options.poses);
-  bind::BindOptions how{bind::BindMode::continuous, options.band, threads};
-  if (options.nearest) how.mode = bind::BindMode::nearest;
+  const bind::BindOptions how{options.mode.mode(), options.band, threads};
   const bind::Binding binding(axes.rest, mesh, how);
   OrderedJson out{
       {"mesh", options.mesh}, {"points", mesh.points.size()}, {"binding", to_json(binding.report())}};
@@ -132,7 +153,7 @@ int judge(const Options& options) {
     std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu shares, rest error %.1e\n",
                 options.mesh.c_str(), mesh.points.size(), binding.report().ambiguous.size(),
                 binding.report().gated.size(), binding.report().shares, binding.report().rest_error);
-  bind::TearVerdict verdict = bind::TearVerdict::smooth;
+  bool right = true;
   if (axes.posed.empty()) {
     if (!options.picture.empty()) draw_bound(options, mesh, binding, axes, threads);
   } else {
@@ -141,19 +162,23 @@ int judge(const Options& options) {
     const bind::TearJudge judged(axes.rest, mesh, how, judging);
     if (!options.picture.empty()) draw_bound(options, judged.mesh(), judged.binding(), axes, threads);
     const bind::JudgeReport report = judged.judge(axes.posed);
-    verdict = report.verdict;
-    out["judge"] = to_json(report);
-    if (!options.json) print_row(options.nearest ? "nearest" : "continuous", report);
+    std::vector<Vec3> points(judged.mesh().points.size());
+    judged.binding().update(axes.posed, points, threads);
+    const bind::Distortion distortion =
+        bind::measure_distortion(judged.binding(), axes.rest, judged.mesh(), axes.posed, points);
+    right = std::string(verdict_of(report, distortion)) == "right";
+    out["judge"] = to_json(report, distortion);
+    if (!options.json) print_row(options.mode.nearest ? "nearest" : "continuous", report, distortion);
   }
   if (options.json) print(out);
-  return verdict == bind::TearVerdict::smooth ? kDone : kNoSuccess;
+  return right ? kDone : kNoSuccess;
 }
 
 }  // namespace
 
 Command bind_command(CLI::App& parent) {
-  auto* app =
-      parent.add_subcommand("bind", "Binds a mesh to axes and judges by refinement whether a pose tears it");
+  auto* app = parent.add_subcommand(
+      "bind", "Binds a mesh to axes and judges by refinement whether a pose tears or crumples it");
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
   app->add_option("--axis", options->axes,
@@ -162,7 +187,7 @@ Command bind_command(CLI::App& parent) {
   app->add_option("--pose", options->poses, "curve file (JSON) of the posed axis, one for each --axis");
   app->add_option("--band", options->band, "width of transitions, in distances to the axis")
       ->capture_default_str();
-  app->add_flag("--nearest", options->nearest, "bind each point to its nearest projection alone");
+  options->mode.add_to(*app);
   app->add_option("--refinements", options->refinements, "splits to judge by, 1 to 4")->capture_default_str();
   app->add_option("--picture", options->picture, "PNG file: ambiguous points at rest, stretch in the pose");
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");

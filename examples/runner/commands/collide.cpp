@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "commands/mode.h"
 #include "query/output.h"
 #include "write/json_output.h"
 
@@ -13,6 +14,7 @@ namespace {
 struct Options {
   std::string mesh, queries, out;
   Posing posing;
+  ModeFlags mode;
   bool json = false;
 };
 
@@ -39,12 +41,14 @@ Told tell(Target& target, Target& other) {
 }
 
 Told carry_out(const Options& options) {
+  Posing posing = options.posing;
+  posing.mode = options.mode.mode();
   if (is_json(options.queries)) {
     const scene::Queries queries = scene::read_queries(options.queries);
-    Target target = read_target(options.mesh, options.posing);
+    Target target = read_target(options.mesh, posing);
     return tell(target, queries);
   }
-  Target target = read_target(options.mesh, options.posing), other = read_target(options.queries, {});
+  Target target = read_target(options.mesh, posing), other = read_target(options.queries, {});
   return tell(target, other);
 }
 
@@ -73,8 +77,7 @@ Command collide_command(CLI::App& parent) {
   app->add_option("--pose", options->posing.pose,
                   "curve file (JSON): the scene's curve-pairs posed, or those of --axis");
   app->add_option("--axis", options->posing.axis, "curve file (JSON) that a mesh alone is bound to, at rest");
-  app->add_flag("--continuous", options->posing.continuous,
-                "bind to --axis without tears where the nearest point jumps");
+  options->mode.add_to(*app);
   app->add_option("--out", options->out, "file to write the JSON to");
   app->add_flag("--json", options->json, "print JSON");
   return {app, [options] { return collide(*options); }};

@@ -1,13 +1,15 @@
 #include "commands.h"
+#include "commands/mode.h"
 #include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
 #include <tendril/base/file.h>
-#include <tendril/bind/binding.h>
+#include <tendril/bind/distortion.h>
 #include <tendril/bind/export.h>
 #include <tendril/curve/equal_length.h>
 
+#include <cstdio>
 #include <iostream>
 
 namespace tendril::runner {
@@ -15,64 +17,79 @@ namespace {
 
 struct Options {
   std::string mesh, axis, pose, out;
-  bool equal_length = false, continuous = false, json = false;
+  ModeFlags mode;
+  bool equal_length = false, json = false;
   int threads = 0;
 };
 
-/// The curve-pairs at rest and posed, one for one. At equal length their knots need not agree.
-Axes axes_of(const Options& options) {
-  if (!options.equal_length) return read_axes({options.axis}, {options.pose}, "the same, or --equal-length");
-  Axes axes;
-  const std::vector<scene::CurveFile> rest = scene::read_curves(options.axis);
-  for (const scene::CurveFile& curve : rest) axes.rest.push_back(curve.pair);
-  for (const scene::CurveFile& curve : scene::read_curves(options.pose, rest))
-    axes.posed.push_back(curve.pair);
-  return axes;
-}
-
+/// The weighted sum over a point's shares, each at the same length along its posed axis as at rest.
 void deform_at_equal_length(const bind::Binding& binding, const Axes& axes, MutablePoints out) {
   std::vector<ArcLength> rest, posed;
   for (std::size_t k = 0; k < axes.rest.size(); ++k) {
     rest.emplace_back(axes.rest[k].primary());
     posed.emplace_back(axes.posed[k].primary());
   }
+  const auto at = [&](const bind::Share& share) {
+    const std::uint32_t k = share.pair;
+    return from_axial(axes.posed[k], at_equal_length(rest[k], posed[k], share.record));
+  };
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::uint32_t k = binding.pair_of(i);
-    out[i] = from_axial(axes.posed[k], at_equal_length(rest[k], posed[k], binding.records()[i]));
+    const std::vector<bind::Share> shares = binding.shares(i);
+    const Vec3 first = at(shares.front());
+    out[i] = first;
+    for (std::size_t k = 1; k < shares.size(); ++k) out[i] += shares[k].weight * (at(shares[k]) - first);
   }
 }
 
-int deform(const Options& options) {
-  if (options.equal_length && options.continuous)
-    throw InvalidInput("--equal-length", "with --continuous", "one of the two");
-  const int threads = thread_count(options.threads);
-  bind::PolygonMesh mesh = read_mesh(options.mesh);
-  const Axes axes = axes_of(options);
-  const auto mode = options.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
-  const bind::Binding binding(axes.rest, mesh, {.mode = mode, .threads = threads});
-  if (options.equal_length) {
-    deform_at_equal_length(binding, axes, mesh.points);
-  } else {
-    binding.update(axes.posed, mesh.points, threads);
-  }
-  mesh.point_normals.clear();
-  bind::write_mesh(options.out, mesh);
+/// What the pose spoils, in a sentence; nothing where that is nothing.
+void warn(const std::string& out, const bind::Distortion& d) {
+  if (d.zones.empty()) return;
+  const bind::SpoiltZone& worst = d.zones.front();
+  std::fprintf(
+      stderr,
+      "tendril: note: %s: the pose spoils %.2g %% of the mesh: %zu triangle(s) folded, %zu stretched and "
+      "%zu crushed more than tenfold, in %zu zone(s), the largest about %g %g %g; 'tendril bind' tells a "
+      "tear from a steep place\n",
+      out.c_str(), 100.0 * d.spoilt, d.folded, d.stretched, d.crushed, d.zones.size(), worst.centre.x(),
+      worst.centre.y(), worst.centre.z());
+}
 
-  const bind::BindReport& report = binding.report();
+void tell(const Options& options, const bind::BindReport& report, const bind::Distortion& distortion,
+          std::size_t points) {
   if (options.json) {
     print({{"mesh", options.out},
-           {"points", mesh.points.size()},
+           {"points", points},
            {"rest_error", report.rest_error},
            {"largest_gap", report.largest_gap},
            {"beyond_ends", report.beyond_ends},
            {"ambiguous", report.ambiguous},
            {"past_focus", report.past_focus},
-           {"degenerate", report.degenerate}});
+           {"degenerate", report.degenerate},
+           {"distortion", runner::to_json(distortion)}});
   } else {
-    std::cout << options.out << ": " << mesh.points.size() << " points; " << report.beyond_ends
-              << " beyond the ends, " << report.past_focus.size() << " past the focus, rest error "
-              << report.rest_error << '\n';
+    std::cout << options.out << ": " << points << " points; " << report.beyond_ends << " beyond the ends, "
+              << report.past_focus.size() << " past the focus, rest error " << report.rest_error << '\n';
   }
+}
+
+int deform(const Options& options) {
+  const int threads = thread_count(options.threads);
+  bind::PolygonMesh mesh = read_mesh(options.mesh);
+  const Axes axes =
+      read_axes({options.axis}, {options.pose}, options.equal_length ? "" : "the same, or --equal-length");
+  const bind::Binding binding(axes.rest, mesh, {.mode = options.mode.mode(), .threads = threads});
+  std::vector<Vec3> points(mesh.points.size());
+  if (options.equal_length) {
+    deform_at_equal_length(binding, axes, points);
+  } else {
+    binding.update(axes.posed, points, threads);
+  }
+  const bind::Distortion distortion = bind::measure_distortion(binding, axes.rest, mesh, axes.posed, points);
+  if (!mesh.point_normals.empty()) mesh.point_normals = bind::posed_normals(mesh, points);
+  mesh.points = std::move(points);
+  bind::write_mesh(options.out, mesh);
+  warn(options.out, distortion);
+  tell(options, binding.report(), distortion, mesh.points.size());
   return kDone;
 }
 
@@ -86,7 +103,7 @@ Command deform_command(CLI::App& parent) {
       ->required();
   app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
-  app->add_flag("--continuous", options->continuous, "bind without tears where the nearest point jumps");
+  options->mode.add_to(*app);
   app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
   app->add_flag("--json", options->json, "print JSON");

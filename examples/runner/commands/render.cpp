@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <thread>
 
 namespace tendril::runner {
@@ -36,18 +35,9 @@ std::pair<T, T> two(const std::string& option, const std::string& text, char sep
   throw InvalidInput(option, "'" + text + "'", expected);
 }
 
-Vec3 read_up(const std::string& name) {
-  static const std::map<std::string, Vec3> axes{{"x", Vec3::UnitX()},   {"y", Vec3::UnitY()},
-                                                {"z", Vec3::UnitZ()},   {"-x", -Vec3::UnitX()},
-                                                {"-y", -Vec3::UnitY()}, {"-z", -Vec3::UnitZ()}};
-  const auto found = axes.find(name);
-  if (found == axes.end()) throw InvalidInput("--up", "'" + name + "'", "x, y, z, -x, -y or -z");
-  return found->second;
-}
-
 scene::ViewOptions read_view(const Options& options) {
   scene::ViewOptions view;
-  view.up = read_up(options.up);
+  view.up = up_direction(options.up);
   const auto angles = two<double>("--view", options.view, ',', "yaw,pitch in degrees");
   if (!(std::abs(angles.first) <= 1e6) || !(std::abs(angles.second) <= 89.0)) {
     throw InvalidInput("--view", "'" + options.view + "'", "a pitch from -89 to 89 degrees");
@@ -74,12 +64,15 @@ int render(const Options& options) {
   CameraFit fit(view);
   fit.include(mesh.points);
   Drawing drawing{&mesh, {}, {}};
-  if (!options.axis.empty()) {
-    const scene::CurveFile curve = scene::read_curve(options.axis);
-    fit.include(curve.pair.primary().control_points());
-    drawing.over = axis_strands(curve.pair, curve.masses, 0.002 * fit.camera().size);
-  }
-  write_file_whole(options.out, png_bytes(draw(drawing, fit.camera(), view, threads)));
+  std::vector<scene::CurveFile> curves;
+  if (!options.axis.empty()) curves = scene::read_curves(options.axis);
+  for (const scene::CurveFile& curve : curves) fit.include(curve.pair.primary().control_points());
+  for (const scene::CurveFile& curve : curves)
+    for (Strand& strand : axis_strands(curve.pair, curve.masses, 0.002 * fit.camera().size))
+      drawing.over.push_back(std::move(strand));
+  Picture picture = draw(drawing, fit.camera(), view, threads);
+  for (const scene::CurveFile& curve : curves) name_axis(picture, fit.camera(), curve.pair, curve.name);
+  write_file_whole(options.out, png_bytes(picture));
   if (options.json) {
     print({{"picture", options.out},
            {"width", view.width},
@@ -103,7 +96,7 @@ Command render_command(CLI::App& parent) {
   const auto options = std::make_shared<Options>();
   app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
   app->add_option("--out", options->out, "PNG file to write")->required();
-  app->add_option("--axis", options->axis, "curve file (JSON) to draw over the mesh");
+  app->add_option("--axis", options->axis, "curve file (JSON) to draw over the mesh, with nodes and names");
   app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   app->add_option("--view", options->view, "YAW,PITCH in degrees")->capture_default_str();
   app->add_option("--up", options->up, "the axis that points up: x, y, z, -x, -y, -z")->capture_default_str();

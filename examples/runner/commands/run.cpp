@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "commands/mode.h"
 #include "read/mesh_reader.h"
 #include "write/folder.h"
 #include "write/interrupt.h"
@@ -17,17 +18,9 @@ namespace {
 struct Options {
   std::string scene, out, mesh;
   int threads = 0;
-  bool continuous = false, nearest = false, no_frames = false, no_pictures = false, double_precision = false,
-       json = false;
+  ModeFlags mode;
+  bool no_frames = false, no_pictures = false, double_precision = false, json = false;
 };
-
-std::optional<bind::BindMode> mode_of(const Options& options) {
-  if (options.continuous && options.nearest)
-    throw InvalidInput("--nearest", "with --continuous", "one of the two");
-  if (options.continuous) return bind::BindMode::continuous;
-  if (options.nearest) return bind::BindMode::nearest;
-  return std::nullopt;
-}
 
 scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
@@ -78,7 +71,7 @@ int run(const Options& options) {
   Phases phases;
   bind::PolygonMesh mesh;
   scene::SceneFile file = read_all(options, mesh, phases);
-  scene::SceneRun scene(std::move(file), std::move(mesh), {.mode = mode_of(options), .threads = threads});
+  scene::SceneRun scene(std::move(file), std::move(mesh), {.mode = options.mode.mode(), .threads = threads});
   make_folder(options.out);
 
   Progress progress;
@@ -105,10 +98,7 @@ Command run_command(CLI::App& parent) {
       ->required();
   app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
-  app->add_flag("--continuous", options->continuous,
-                "bind to one curve-pair, too, without tears where the nearest point jumps");
-  app->add_flag("--nearest", options->nearest,
-                "bind to several curve-pairs, too, by the nearest point alone");
+  options->mode.add_to(*app);
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");

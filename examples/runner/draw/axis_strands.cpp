@@ -36,6 +36,16 @@ std::vector<Strand> axis_strands(const CurvePair& pair, Points masses, double ra
   return out;
 }
 
+void name_axis(Picture& picture, const Camera& camera, const CurvePair& pair, const std::string& name) {
+  const double middle = 0.5 * (pair.knots().start() + pair.knots().end());
+  const auto at = camera.place(pair.primary().value(middle));
+  if (!at) return;
+  const int scale = std::max(1, picture.height / 360);
+  const auto pixel = [](double part, int size) { return static_cast<int>(0.5 * (1.0 + part) * size); };
+  draw_text(picture, name, pixel((*at)[0], picture.width) + 4 * scale, pixel(-(*at)[1], picture.height),
+            scale);
+}
+
 Strand rod_strand(const CurvePair& pair, std::span<const double> parameters, std::span<const double> widths,
                   double least) {
   Strand out{Strand::Kind::tube, along(pair.primary()), least, Vec3f(0.40F, 0.30F, 0.22F)};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 namespace tendril::runner {
@@ -36,6 +37,22 @@ CameraFit::CameraFit(const scene::ViewOptions& view) : ground_up_(view.up.stable
   low_.setConstant(kInfinity);
   high_.setConstant(-kInfinity);
   ground_ = kInfinity;
+}
+
+std::optional<std::array<double, 2>> Camera::place(const Vec3& p) const {
+  const Vec3 way = p - eye;
+  const double depth = way.dot(forward);
+  if (!(depth > 0.0)) return std::nullopt;
+  return std::array{way.dot(right) / (depth * tan_x), way.dot(up) / (depth * tan_y)};
+}
+
+Vec3 up_direction(const std::string& name) {
+  static const std::map<std::string, Vec3> axes{{"x", Vec3::UnitX()},   {"y", Vec3::UnitY()},
+                                                {"z", Vec3::UnitZ()},   {"-x", -Vec3::UnitX()},
+                                                {"-y", -Vec3::UnitY()}, {"-z", -Vec3::UnitZ()}};
+  const auto found = axes.find(name);
+  if (found == axes.end()) throw InvalidInput("--up", "'" + name + "'", "x, y, z, -x, -y or -z");
+  return found->second;
 }
 
 void CameraFit::include(Points points) {

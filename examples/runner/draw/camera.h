@@ -3,6 +3,8 @@
 #include <tendril/scene/view.h>
 
 #include <array>
+#include <optional>
+#include <string>
 
 namespace tendril::runner {
 
@@ -15,7 +17,13 @@ struct Camera {
   double ground;   ///< its height along the normal
   Vec3 centre;     ///< of what is looked at
   double size;     ///< diagonal of its bounding box, positive
+
+  /// Where a point is seen: from -1 to 1 across the picture to the right and up. Nothing behind the eye.
+  std::optional<std::array<double, 2>> place(const Vec3& p) const;
 };
+
+/// The direction that x, y, z, -x, -y or -z names; InvalidInput naming --up.
+Vec3 up_direction(const std::string& name);
 
 /// Gathers all that a sequence of pictures is to show, and places one camera for them all: as near as the
 /// view's direction allows with a margin on every side. The ground goes under the lowest point.

@@ -27,6 +27,9 @@ struct Drawing {
 /// The primary curve and its masses, and the orientation curve in a second colour.
 std::vector<Strand> axis_strands(const CurvePair& pair, Points masses, double radius);
 
+/// Writes a curve-pair's name into a picture, beside the middle of its primary curve.
+void name_axis(Picture& picture, const Camera& camera, const CurvePair& pair, const std::string& name);
+
 /// The rod itself, round and as thick as its edges are wide.
 /// \param parameters  of the masses on the curve
 /// \param widths  per edge; at least 2 `least` is drawn

@@ -22,8 +22,13 @@ struct Picture {
 /// The picture as a PNG file. The same picture gives the same bytes.
 std::string png_bytes(const Picture& picture);
 
-/// Pictures of one size side by side in `columns`, row after row, with a caption in each one's corner
-/// (digits, letters of units, point and sign; other characters are left blank).
+/// Writes into a picture: digits, letters (capitals, but for those of units), point, dash, underscore and
+/// sign; other characters are left blank, and what lies beyond the picture is left out.
+/// \param left, top  pixel of the first letter's corner
+/// \param scale      pixels a dot; letters are 5 by 7 dots
+void draw_text(Picture& picture, const std::string& text, int left, int top, int scale);
+
+/// Pictures of one size side by side in `columns`, row after row, with a caption in each one's corner.
 Picture contact_sheet(const std::vector<Picture>& panels, const std::vector<std::string>& captions,
                       int columns);
 

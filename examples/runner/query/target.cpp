@@ -124,14 +124,14 @@ std::vector<CurvePair> pose_of(const scene::SceneFile& file, const std::vector<s
   return out;
 }
 
-Target of_scene(const std::string& path, const std::string& pose) {
+Target of_scene(const std::string& path, const Posing& posing) {
   const scene::SceneFile file = scene::read_scene(path);
   if (file.mesh.empty()) throw InvalidInput(path + "#", "the key 'mesh' is missing", "a scene with a mesh");
   bind::PolygonMesh mesh = read_mesh(file);
   const Fans fans = fans_of(mesh, file.mesh);
   const std::vector<scene::CurveFile> rest = curves_of(file);
-  const std::vector<CurvePair> posed = pose_of(file, rest, pose);
-  const scene::BoundMesh bound(file, std::move(mesh), scene::default_mode(file));
+  const std::vector<CurvePair> posed = pose_of(file, rest, posing.pose);
+  const scene::BoundMesh bound(file, std::move(mesh), posing.mode);
   Axes axes;
   for (const std::size_t k : file.bound_to) {
     axes.rest.push_back(rest[k].pair);
@@ -147,8 +147,7 @@ Target of_mesh(const std::string& path, const Posing& posing) {
   if (posing.axis.empty()) return standing(path, fans, mesh.points);
   const Axes axes =
       read_axes({posing.axis}, posing.pose.empty() ? std::vector<std::string>{} : std::vector{posing.pose});
-  const auto mode = posing.continuous ? bind::BindMode::continuous : bind::BindMode::nearest;
-  return following(path, fans, bind::Binding(axes.rest, mesh, {.mode = mode}), axes);
+  return following(path, fans, bind::Binding(axes.rest, mesh, {.mode = posing.mode}), axes);
 }
 
 }  // namespace
@@ -164,7 +163,7 @@ bool is_json(const std::string& path) {
 Target read_target(const std::string& path, const Posing& posing) {
   if (is_json(path)) {
     if (!posing.axis.empty()) throw InvalidInput("--axis", "with a scene", "a mesh, or no --axis");
-    return of_scene(path, posing.pose);
+    return of_scene(path, posing);
   }
   if (posing.axis.empty() && !posing.pose.empty())
     throw InvalidInput("--pose", "a mesh without --axis", "--axis too, or a scene");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/bind/bind_options.h>
 #include <tendril/exact/bound_surface.h>
 
 #include <optional>
@@ -27,7 +28,7 @@ struct Target {
 struct Posing {
   std::string axis;  ///< curve file at rest, of a mesh alone
   std::string pose;  ///< curve file of the same posed, or of a scene's curve-pairs
-  bool continuous = false;
+  bind::BindMode mode = bind::BindOptions{}.mode;
 };
 
 /// A scene's mesh (JSON) or a mesh alone (OFF, PLY). InvalidInput for what is wrong with any of the files,

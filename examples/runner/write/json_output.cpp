@@ -8,6 +8,22 @@ OrderedJson to_json(const Vec3& v) {
   return OrderedJson::array({v.x(), v.y(), v.z()});
 }
 
+OrderedJson to_json(const bind::Distortion& distortion) {
+  OrderedJson zones = OrderedJson::array();
+  for (const bind::SpoiltZone& zone : distortion.zones)
+    zones.push_back({{"centre", to_json(zone.centre)},
+                     {"radius", zone.radius},
+                     {"area", zone.area},
+                     {"faces", zone.faces}});
+  return {{"most_stretch", distortion.most_stretch},
+          {"least_stretch", distortion.least_stretch},
+          {"stretched", distortion.stretched},
+          {"crushed", distortion.crushed},
+          {"folded", distortion.folded},
+          {"spoilt_area", distortion.spoilt},
+          {"zones", zones}};
+}
+
 void print(const OrderedJson& value) {
   std::cout << value.dump(2, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
 }
