@@ -4,16 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "facing.h"
-#include "mesh/neighbours.h"
+#include "loose_parts.h"
 #include "mesh/parallel.h"
 #include "soft_axis.h"
+#include "ways.h"
 
 namespace tendril::bind {
 namespace {
 
-/// By how much the scale of the binding may fall per length on the mesh. The distance to a curve can fall by
-/// 1, so near where the mesh meets its own axis the scale is bounded by that of the mesh around.
+/// Voxels along the longest side of a body.
+constexpr int kVoxels = 80;
+/// By how much the scale of the binding may fall per length along the body. The distance to a curve can
+/// fall by 1, so near where the mesh meets its own axis the scale is bounded by that of the mesh around.
 constexpr double kScaleSlope = 0.5;
 constexpr double kSmallest = 1e-150;  ///< scale, so that its square is a number
 
@@ -33,29 +35,23 @@ bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle,
   return true;
 }
 
-/// Closes the projections of a point that no path on the mesh, through the same branch of projections, joins
-/// to a point where the branch is the nearest: a flood over (point, projection) from all nearest projections.
+/// Closes the projections of a node that no path along the body, through the same branch of projections,
+/// joins to a node where the branch is the nearest: a flood over (node, projection) from all nearest
+/// projections.
 class Gate {
  public:
-  Gate(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, const Neighbours& neighbours,
-       CandidateLists& lists)
-      : projectors_(projectors), mesh_(mesh), lists_(lists), neighbours_(neighbours) {}
+  Gate(std::span<const CurveProjector> projectors, const BodyGrid& grid, CandidateLists& lists)
+      : projectors_(projectors), grid_(grid), lists_(lists) {}
 
-  /// Points with a closed projection, ascending.
-  std::vector<std::uint32_t> run() {
+  void run() {
     for (auto& list : lists_)
       for (Candidate& c : list) c.open = false;
     for (std::uint32_t i = 0; i < lists_.size(); ++i) enter(i, 0);
     while (!waiting_.empty()) {
       const Node node = waiting_.back();
       waiting_.pop_back();
-      for (const std::uint32_t next : neighbours_.of(node.point)) spread(node, next);
+      for (const std::uint32_t next : grid_.neighbours().of(node.point)) spread(node, next);
     }
-    std::vector<std::uint32_t> gated;
-    for (std::uint32_t i = 0; i < lists_.size(); ++i)
-      if (std::any_of(lists_[i].begin(), lists_[i].end(), [](const Candidate& c) { return !c.open; }))
-        gated.push_back(i);
-    return gated;
   }
 
  private:
@@ -72,88 +68,91 @@ class Gate {
   void spread(const Node& node, std::uint32_t next) {
     for (std::size_t k = 1; k < lists_[next].size(); ++k)
       if (!lists_[next][k].open &&
-          same_branch(projectors_, 0.5 * (mesh_.points[node.point] + mesh_.points[next]),
+          same_branch(projectors_, 0.5 * (grid_.nodes()[node.point] + grid_.nodes()[next]),
                       lists_[node.point][node.which], lists_[next][k]))
         enter(next, k);
   }
 
   std::span<const CurveProjector> projectors_;
-  const PolygonMesh& mesh_;
+  const BodyGrid& grid_;
   CandidateLists& lists_;
-  const Neighbours& neighbours_;
   std::vector<Node> waiting_;
 };
 
-/// Finds the branches of a mesh step by step, each in parts of the points or over the whole mesh.
-class Search {
- public:
-  Search(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band, int threads)
-      : projectors_(projectors),
-        mesh_(mesh),
-        band_(band),
-        threads_(threads),
-        axis_(projectors, band),
-        neighbours_(mesh),
-        facing_(projectors, mesh, neighbours_, threads),
-        lists_(mesh.points.size()),
-        scales_(mesh.points.size()),
-        margins_(mesh.points.size()) {}
+}  // namespace
 
-  Branches run() {
-    find_nearest();
+/// What is known at the nodes of the grid, and of points in between.
+struct BodyBranches::Data {
+  Data(std::span<const CurveProjector> curves, const PolygonMesh& body, double width, int threads)
+      : projectors(curves),
+        band(width),
+        axis(curves, width),
+        grid(body, kVoxels),
+        ways(curves, grid, threads),
+        lists(grid.nodes().size()),
+        scales(lists.size()),
+        margins(lists.size()) {
+    find_nearest(threads);
     find_scales();
-    find_margins();
-    Branches branches;
-    if (std::any_of(lists_.begin(), lists_.end(), [](const auto& list) { return list.size() > 1; }))
-      branches.gated = Gate(projectors_, mesh_, neighbours_, lists_).run();
-    share(branches);
-    return branches;
-  }
-
- private:
-  template <class Do>
-  void in_parts(const Do& each) const {
-    bind::in_parts(mesh_.points.size(), threads_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) each(i);
+    find_margins(threads);
+    if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
+      Gate(projectors, grid, lists).run();
+    faces = grid.faces_of_points(body);
+    loose = LooseParts(body, projectors, [&](std::uint32_t point, std::uint32_t pair) {
+      return ways.factor(grid.place(body.points[point], faces[point]), pair);
     });
   }
-  Site site(std::size_t point) const;
-  std::vector<Candidate> candidates(const Site& site) const;
-  void find_nearest();
-  void find_scales();
-  void find_margins();
-  void share(Branches& branches) const;
 
-  std::span<const CurveProjector> projectors_;
-  const PolygonMesh& mesh_;
-  double band_;
-  int threads_;
-  SoftAxis axis_;
-  Neighbours neighbours_;
-  Facing facing_;
-  CandidateLists lists_;  ///< per point, the nearest projection first; the others where they are asked for
-  std::vector<double> scales_, margins_;  ///< per point, see Site and SoftAxis::cut_margin
+  template <class FactorOf>
+  std::vector<double> factors(const Candidate& nearest, const FactorOf& factor_of) const;
+  Site site_of_node(std::uint32_t node) const;
+  std::vector<Candidate> candidates(const Site& site) const;
+  template <class FactorOf>
+  void nearest_to(Points points, const FactorOf& factor_of, Candidate* out) const;
+  void find_nearest(int threads);
+  void find_scales();
+  void find_margins(int threads);
+  void open_by_nodes(const Vec3& p, const GridPlace& place, std::vector<Candidate>& list) const;
+  void bind(const Vec3& p, const GridPlace& place, Candidate& nearest, std::vector<Influence>& influences,
+            bool& gated, bool& cluster) const;
+
+  std::span<const CurveProjector> projectors;
+  double band;
+  SoftAxis axis;
+  BodyGrid grid;
+  Ways ways;
+  CandidateLists lists;  ///< per node, the nearest projection first; the others where they are asked for
+  std::vector<double> scales,
+      margins;  ///< per node: of BindOptions::band, times the nearest's factor; cut_margin
+  LooseParts loose;
+  std::vector<std::uint32_t> faces;  ///< one for each point of the body
 };
 
-Site Search::site(std::size_t point) const {
-  Site site{mesh_.points[point], scales_[point], {}, lists_[point]};
-  const double unit = site.nearest().factor;
-  for (std::uint32_t k = 0; k < projectors_.size(); ++k)
-    site.factors.push_back(facing_.factor(point, k) / unit);
-  return site;
+/// Over that of the nearest.
+template <class FactorOf>
+std::vector<double> BodyBranches::Data::factors(const Candidate& nearest, const FactorOf& factor_of) const {
+  std::vector<double> out;
+  for (std::uint32_t k = 0; k < projectors.size(); ++k) out.push_back(factor_of(k) / nearest.factor);
+  return out;
+}
+
+Site BodyBranches::Data::site_of_node(std::uint32_t node) const {
+  const Candidate& nearest = lists[node].front();
+  return {grid.nodes()[node], std::max(kSmallest, scales[node] / nearest.factor),
+          factors(nearest, [&](std::uint32_t k) { return ways.factor(node, k); }), lists[node]};
 }
 
 /// All projections that count, the nearest first.
-std::vector<Candidate> Search::candidates(const Site& site) const {
+std::vector<Candidate> BodyBranches::Data::candidates(const Site& site) const {
   const Candidate& nearest = site.nearest();
-  const double reach = axis_.reach(site);
+  const double reach = axis.reach(site);
   std::vector<Candidate> out;
-  for (std::uint32_t k = 0; k < projectors_.size(); ++k) {
+  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
     const double most = reach / site.factors[k];
-    const double distance = k == nearest.pair ? nearest.at.distance : projectors_[k].nearest(site.p).distance;
+    const double distance = k == nearest.pair ? nearest.at.distance : projectors[k].nearest(site.p).distance;
     if (distance > most) continue;
     const double within = distance > 0.0 ? most / distance - 1.0 : std::numeric_limits<double>::infinity();
-    for (const LocalMinimum& m : projectors_[k].all(site.p, within, nearest.at.t))
+    for (const LocalMinimum& m : projectors[k].all(site.p, within, nearest.at.t))
       if (!(m.distance > most)) out.push_back({k, m, nearest.factor * site.factors[k]});
   }
   std::stable_sort(out.begin(), out.end(),
@@ -161,78 +160,153 @@ std::vector<Candidate> Search::candidates(const Site& site) const {
   return out;
 }
 
-/// On any of the curves.
-void Search::find_nearest() {
-  bind::in_parts(lists_.size(), threads_, [&](std::size_t begin, std::size_t end) {
-    for (std::uint32_t k = 0; k < projectors_.size(); ++k) {
-      const std::vector<Projection> nearest =
-          projectors_[k].nearest(Points(mesh_.points).subspan(begin, end - begin));
-      for (std::size_t i = begin; i < end; ++i) {
-        const Projection& at = nearest[i - begin];
-        const double factor = facing_.factor(i, k);
-        if (k == 0 || factor * at.distance < lists_[i].front().distance())
-          lists_[i] = {{k, {at, std::max(0.0, at.lambda), false, 1}, factor}};
-      }
+/// On any of the curves, of each point.
+/// \param factor_of  of a point's index and a curve
+template <class FactorOf>
+void BodyBranches::Data::nearest_to(Points points, const FactorOf& factor_of, Candidate* out) const {
+  for (std::uint32_t k = 0; k < projectors.size(); ++k) {
+    const std::vector<Projection> nearest = projectors[k].nearest(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Projection& at = nearest[i];
+      const double factor = factor_of(i, k);
+      if (k == 0 || factor * at.distance < out[i].distance())
+        out[i] = {k, {at, std::max(0.0, at.lambda), false, 1}, factor};
     }
-    for (std::size_t i = begin; i < end; ++i) {
-      Candidate& best = lists_[i].front();
-      if (best.at.kind != ProjectionKind::interior)
-        best.at = projectors_[best.pair].all(mesh_.points[i], 0.0, best.at.t).front();
-    }
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (out[i].at.kind != ProjectionKind::interior)
+      out[i].at = projectors[out[i].pair].all(points[i], 0.0, out[i].at.t).front();
+}
+
+void BodyBranches::Data::find_nearest(int threads) {
+  std::vector<Candidate> nearest(lists.size());
+  in_parts(lists.size(), threads, [&](std::size_t begin, std::size_t end) {
+    const auto factor_of = [&](std::size_t i, std::uint32_t k) {
+      return ways.factor(static_cast<std::uint32_t>(begin + i), k);
+    };
+    nearest_to(grid.nodes().subspan(begin, end - begin), factor_of, nearest.data() + begin);
   });
+  for (std::size_t i = 0; i < lists.size(); ++i) lists[i] = {nearest[i]};
 }
 
 /// The smallest function above the distance to the axis that falls by at most kScaleSlope.
-void Search::find_scales() {
-  for (std::size_t i = 0; i < scales_.size(); ++i) scales_[i] = -lists_[i].front().distance();
+void BodyBranches::Data::find_scales() {
+  for (std::size_t i = 0; i < scales.size(); ++i) scales[i] = -lists[i].front().distance();
   bound_growth(
-      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return scales_[i]; },
+      grid.nodes(), grid.neighbours(), [&](std::uint32_t i) -> double& { return scales[i]; },
       [](std::uint32_t, double length) { return kScaleSlope * length; });
-  for (std::size_t i = 0; i < scales_.size(); ++i)
-    scales_[i] = std::max(kSmallest, -scales_[i] / lists_[i].front().factor);
+  for (double& scale : scales) scale = -scale;
 }
 
 /// Where the nearest point jumps to another one close by, the margin rises from 0 to 1 over a length
 /// comparable with the distance between the two, and the blend would change as fast. So the margins are
-/// lowered to grow along no edge by more than its length over band scale, as they do beside the bisector of
-/// two branches.
-void Search::find_margins() {
-  in_parts([&](std::size_t i) {
-    margins_[i] = 1.0;
-    Site here = site(i);
-    if (!axis_.may_be_ambiguous(here)) return;
-    lists_[i] = candidates(here);
-    here.all = lists_[i];
-    margins_[i] = std::min(1.0, axis_.cut_margin(here));
+/// lowered to grow between nodes by no more than their distance over band scale, as they do beside the
+/// bisector of two branches.
+void BodyBranches::Data::find_margins(int threads) {
+  const auto each = [&](const auto& act) {
+    in_parts(lists.size(), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) act(static_cast<std::uint32_t>(i));
+    });
+  };
+  each([&](std::uint32_t i) {
+    margins[i] = 1.0;
+    Site here = site_of_node(i);
+    if (!axis.may_be_ambiguous(here)) return;
+    lists[i] = candidates(here);
+    here.all = lists[i];
+    margins[i] = std::min(1.0, axis.cut_margin(here));
   });
   bound_growth(
-      mesh_, neighbours_, [&](std::uint32_t i) -> double& { return margins_[i]; },
-      [&](std::uint32_t i, double length) { return length / (band_ * scales_[i]); });
-  in_parts([&](std::size_t i) {
-    if (margins_[i] < 1.0 && lists_[i].size() == 1) lists_[i] = candidates(site(i));
+      grid.nodes(), grid.neighbours(), [&](std::uint32_t i) -> double& { return margins[i]; },
+      [&](std::uint32_t i, double length) {
+        return length * lists[i].front().factor / (band * std::max(kSmallest, scales[i]));
+      });
+  each([&](std::uint32_t i) {
+    if (margins[i] < 1.0 && lists[i].size() == 1) lists[i] = candidates(site_of_node(i));
   });
 }
 
-void Search::share(Branches& branches) const {
-  branches.influences.resize(lists_.size());
-  in_parts([&](std::size_t i) {
-    const double weight = SoftAxis::blend_weight(margins_[i]);
-    if (weight > 0.0) branches.influences[i] = axis_.influences(site(i));
-    for (Influence& one : branches.influences[i]) one.weight *= weight;
-  });
-  for (std::uint32_t i = 0; i < lists_.size(); ++i) {
-    if (!branches.influences[i].empty()) branches.ambiguous.push_back(i);
-    branches.nearest.push_back(lists_[i].front());
-    branches.clusters +=
-        std::any_of(lists_[i].begin(), lists_[i].end(), [](const Candidate& c) { return c.at.cluster; });
+/// Open are those on the branch of an open one of a node beside the point.
+void BodyBranches::Data::open_by_nodes(const Vec3& p, const GridPlace& place,
+                                       std::vector<Candidate>& list) const {
+  for (std::size_t k = 1; k < list.size(); ++k) {
+    list[k].open = false;
+    for (std::size_t n = 0; n < 8 && !list[k].open; ++n) {
+      if (!(place.weight[n] > 0.0)) continue;
+      const Vec3 middle = 0.5 * (p + grid.nodes()[place.node[n]]);
+      for (const Candidate& c : lists[place.node[n]])
+        if (c.open && same_branch(projectors, middle, c, list[k])) list[k].open = true;
+    }
   }
 }
 
-}  // namespace
+/// \param nearest  of all curves
+void BodyBranches::Data::bind(const Vec3& p, const GridPlace& place, Candidate& nearest,
+                              std::vector<Influence>& influences, bool& gated, bool& cluster) const {
+  const auto factor_of = [&](std::uint32_t k) { return ways.factor(place, k); };
+  const double scale = place.mean([&](std::uint32_t node) { return scales[node]; }) / nearest.factor;
+  std::vector<Candidate> list{nearest};
+  Site here{p, std::max({kSmallest, nearest.at.distance, scale}), factors(nearest, factor_of), list};
+  // Of what they lack to 1, so that among nodes that lack nothing it is 1, not rounded.
+  double margin = 1.0 - place.mean([&](std::uint32_t node) { return 1.0 - margins[node]; });
+  const bool may_be = axis.may_be_ambiguous(here);
+  if (may_be || margin < 1.0) {
+    list = candidates(here);
+    here.all = list;
+    if (may_be) margin = std::min(margin, axis.cut_margin(here));
+  }
+  nearest = list.front();
+  if (list.size() > 1) open_by_nodes(p, place, list);
+  gated = std::any_of(list.begin(), list.end(), [](const Candidate& c) { return !c.open; });
+  cluster = std::any_of(list.begin(), list.end(), [](const Candidate& c) { return c.at.cluster; });
+  const double weight = SoftAxis::blend_weight(margin);
+  if (!(weight > 0.0)) return;
+  influences = axis.influences(here);
+  for (Influence& one : influences) one.weight *= weight;
+}
+
+BodyBranches::BodyBranches(std::span<const CurveProjector> projectors, const PolygonMesh& body, double band,
+                           int threads)
+    : data_(std::make_unique<Data>(projectors, body, band, threads)) {}
+
+BodyBranches::~BodyBranches() = default;
+
+Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, int threads) const {
+  const std::span<const std::uint32_t> face_of =
+      face.empty() ? std::span<const std::uint32_t>(data_->faces) : face;
+  Branches out;
+  out.nearest.resize(points.size());
+  out.influences.resize(points.size());
+  std::vector<std::uint8_t> gated(points.size(), 0), cluster(points.size(), 0), loose(points.size(), 0);
+  in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<GridPlace> places;
+    for (std::size_t i = begin; i < end; ++i) places.push_back(data_->grid.place(points[i], face_of[i]));
+    const auto factor_of = [&](std::size_t i, std::uint32_t k) { return data_->ways.factor(places[i], k); };
+    data_->nearest_to(points.subspan(begin, end - begin), factor_of, out.nearest.data() + begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (const Candidate* held = data_->loose.held(face_of[i])) {
+        out.nearest[i] = *held;
+        loose[i] = 1;
+        continue;
+      }
+      bool is_gated = false, is_cluster = false;
+      data_->bind(points[i], places[i - begin], out.nearest[i], out.influences[i], is_gated, is_cluster);
+      gated[i] = is_gated;
+      cluster[i] = is_cluster;
+    }
+  });
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!out.influences[i].empty()) out.ambiguous.push_back(i);
+    if (gated[i] != 0) out.gated.push_back(i);
+    if (loose[i] != 0) out.loose.push_back(i);
+    out.clusters += cluster[i];
+  }
+  return out;
+}
 
 Branches find_branches(std::span<const CurveProjector> projectors, const PolygonMesh& mesh, double band,
                        int threads) {
-  return Search(projectors, mesh, band, threads).run();
+  return BodyBranches(projectors, mesh, band, threads).find(mesh.points, {}, threads);
 }
 
 }  // namespace tendril::bind

@@ -1,10 +1,9 @@
 #include "neighbours.h"
 
-#include <array>
-
 namespace tendril::bind {
+namespace {
 
-Neighbours::Neighbours(const PolygonMesh& mesh) {
+std::vector<std::array<std::uint32_t, 2>> edges_of(const PolygonMesh& mesh) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
@@ -14,12 +13,20 @@ Neighbours::Neighbours(const PolygonMesh& mesh) {
       edges.push_back({b, a});
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  begin.assign(mesh.points.size() + 1, 0);
-  for (const auto& edge : edges) {
-    ++begin[edge[0] + 1];
-    to.push_back(edge[1]);
+  return edges;
+}
+
+}  // namespace
+
+Neighbours::Neighbours(const PolygonMesh& mesh) : Neighbours(mesh.points.size(), edges_of(mesh)) {}
+
+Neighbours::Neighbours(std::size_t points, std::vector<std::array<std::uint32_t, 2>> pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  begin.assign(points + 1, 0);
+  for (const auto& pair : pairs) {
+    ++begin[pair[0] + 1];
+    to.push_back(pair[1]);
   }
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
 }

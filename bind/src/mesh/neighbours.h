@@ -3,6 +3,7 @@
 #include <tendril/bind/polygon_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -14,7 +15,10 @@ namespace tendril::bind {
 struct Neighbours {
   std::vector<std::uint32_t> begin, to;
 
+  Neighbours() = default;
   explicit Neighbours(const PolygonMesh& mesh);
+  /// \param pairs  each of two neighbours both ways; any may be there several times
+  Neighbours(std::size_t points, std::vector<std::array<std::uint32_t, 2>> pairs);
   std::span<const std::uint32_t> of(std::size_t point) const {
     return std::span(to).subspan(begin[point], begin[point + 1] - begin[point]);
   }
@@ -29,21 +33,20 @@ struct Neighbours {
 /// \param growth  of a point and a length: by how much, at least 0, the function may grow over an edge so
 /// long that ends there
 template <class Value, class Growth>
-void bound_growth(const PolygonMesh& mesh, const Neighbours& neighbours, const Value& value,
-                  const Growth& growth) {
+void bound_growth(Points points, const Neighbours& neighbours, const Value& value, const Growth& growth) {
   using Number = std::decay_t<decltype(value(0))>;
   using Entry = std::pair<Number, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
   const auto spread = [&](std::uint32_t from) {
     for (const std::uint32_t next : neighbours.of(from)) {
-      const double length = (mesh.points[next] - mesh.points[from]).norm();
+      const double length = (points[next] - points[from]).norm();
       const auto most = static_cast<Number>(static_cast<double>(value(from)) + growth(next, length));
       if (!(most < value(next))) continue;
       value(next) = most;
       waiting.push({most, next});
     }
   };
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) spread(i);
+  for (std::uint32_t i = 0; i < points.size(); ++i) spread(i);
   while (!waiting.empty()) {
     const auto [reached, i] = waiting.top();
     waiting.pop();

@@ -9,8 +9,8 @@
 namespace tendril::bind {
 
 /// What a point is bound to. The nearest projection is that of least distance. With several curve-pairs, the
-/// distance to a curve that the surface at the point faces towards, instead of away from, is multiplied by up
-/// to ten: a body's skin beside an arm is nearer to the arm's axis but faces it, and stays bound to its own.
+/// distance to a curve is multiplied by up to ten where the way there through the body is longer than the
+/// straight one: a body's skin beside an arm is nearer to the arm's axis, but the way leads by the shoulder.
 enum class BindMode {
   /// The nearest projection alone. Across the cut locus of the axes, where it jumps from one part of the axes
   /// to another, the mesh tears.
