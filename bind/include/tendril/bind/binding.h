@@ -79,6 +79,11 @@ class TENDRIL_BIND_API Binding {
   /// Some points, in the order given, at less cost a point.
   void at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points, MutablePoints out) const;
 
+  /// How fast some points move where control points of `posed` move as those of `rates`, on the same knots,
+  /// say. A point without a frame (see pull_back) moves as the curve's point. InvalidInput as for update.
+  void velocities(std::span<const CurvePair> posed, std::span<const CurvePair> rates,
+                  std::span<const std::uint32_t> points, MutablePoints out) const;
+
   /// The transpose of update: forces on the points as forces on the control points that do the same virtual
   /// work, turns (CurvePair::set_turn) held, with the same resultant force and torque. A point without a
   /// frame (closer than 1e-8 to degenerate) is taken to follow the curve's point alone. At most 3 updates'

@@ -2,6 +2,7 @@
 
 #include <tendril/base/export.h>
 #include <tendril/curve/axial.h>
+#include <tendril/curve/control_forces.h>
 
 #include <cstdint>
 #include <memory>
@@ -55,6 +56,23 @@ class TENDRIL_CORE_API BoundPoints {
   /// Points in groups: group g are the points[begin[g], begin[g + 1]); a point may be in several.
   virtual std::unique_ptr<PointGroups> group(std::span<const std::uint32_t> begin,
                                              std::span<const std::uint32_t> points) const = 0;
+};
+
+/// Bound points that can be met: some of them at a time, their velocities, and the transpose. The `points`
+/// are indices, `posed` on the knots of the rest; else InvalidInput. Safe to call from several threads.
+class TENDRIL_CORE_API LoadedPoints : public BoundPoints {
+ public:
+  /// Where points are, in the order given.
+  virtual void place(std::span<const CurvePair> posed, std::span<const std::uint32_t> points,
+                     MutablePoints out) const = 0;
+  /// How fast they move where the control points of `posed` move as fast as those of `rates` say. A point
+  /// without a frame moves as the curve's point.
+  virtual void velocities(std::span<const CurvePair> posed, std::span<const CurvePair> rates,
+                          std::span<const std::uint32_t> points, MutablePoints out) const = 0;
+  /// Forces on points as forces on the control points that do the same work.
+  virtual std::vector<ControlForces> pull_back(std::span<const CurvePair> posed,
+                                               std::span<const std::uint32_t> points,
+                                               Points forces) const = 0;
 };
 
 }  // namespace tendril

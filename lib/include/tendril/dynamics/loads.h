@@ -35,6 +35,7 @@ struct StateView {
   Points m = {};  ///< unit directors, across the tangents; zero vectors where the twist state is left out
   const ForceMemory* memory = nullptr;    ///< what Force::remember gave last; null before and without
   std::span<const BodyView> bodies = {};  ///< one each, in the scene's order
+  Points turn = {};                       ///< angular velocities of the node frames, spin included
 };
 
 /// Where a force adds what it does: a force per node, and a torque per node as a world vector. The torque's

@@ -29,6 +29,9 @@ class TENDRIL_CORE_API RodCurves {
   /// Of the masses on their rod's curve, in [0, 1].
   std::span<const double> parameters(std::size_t rod) const { return rods_.at(rod).fit.parameters(); }
 
+  /// Of a rod's curve-pair, in every state.
+  const KnotVector& knots(std::size_t rod) const { return rods_.at(rod).fit.knots(); }
+
   /// The curve-pair of a rod through masses p and orientation masses q, as many as it has nodes.
   CurvePair through(std::size_t rod, Points p, Points q) const;
 
@@ -42,6 +45,13 @@ class TENDRIL_CORE_API RodCurves {
   /// The curve-pair of a rod at what a force sees, without turns. Throws InvalidInput where the rod's twist
   /// state is left out: it has no directors then, and a force that asks for them says twists().
   CurvePair pair(const StateView& state, std::size_t rod) const;
+
+  /// How fast the control points of pair(state, rod) move, on the same knots: c' = sum N_i(t) of those of the
+  /// primary curve is the velocity of the point c. Throws as pair() does.
+  CurvePair rates(const StateView& state, std::size_t rod) const;
+  /// By how much control points move at most, in units of how far the farthest mass of the rod does: the
+  /// largest row sum of |N^-1|, N the matrix of the interpolation. O(n^2).
+  double gain(std::size_t rod) const;
 
   /// Adds what forces on the control points of pair(state, rod) mean for the masses (loads_on_masses): loads
   /// that do the same work when the masses move and their frames turn. Throws as pair() does, and on a wrong

@@ -21,9 +21,10 @@ StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns&
     loads.t[i] = kin.frame.z[i];
     loads.m[i] = model.has_twist(i) ? kin.frame.y[i] : Vec3(Vec3::Zero());
     loads.spin[i] = kin.spin[i];
+    loads.turn[i] = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
   }
   return {t,           loads.p,    loads.v, loads.t, loads.spin, model.mass,
-          model.width, model.rods, loads.m, nullptr, kin.bodies};
+          model.width, model.rods, loads.m, nullptr, kin.bodies, loads.turn};
 }
 
 Loads no_loads(const Kinematics& kin, LoadColumns& loads) {
@@ -59,10 +60,8 @@ Evaluation add_external(const Model& model, const State& reference, double t, co
   };
   add(false);
   double power = 0.0;
-  for (std::size_t i = 0; i < model.nodes; ++i) {
-    const Vec3 turning = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
-    power += loads.load[i].dot(loads.v[i]) + loads.torque[i].dot(turning);
-  }
+  for (std::size_t i = 0; i < model.nodes; ++i)
+    power += loads.load[i].dot(loads.v[i]) + loads.torque[i].dot(loads.turn[i]);
   power += power_on_bodies(kin.bodies, loads.on_bodies);
   add(true);
   total += power;

@@ -21,7 +21,7 @@ System::Workspace::Workspace(const System::Model& model) {
                         &k.rate.connection, &g.spin, &g.length, &g.twist_torque, &g.energy, &g.heat})
     *numbers = Column(n, rank++);
   if (!model.loaded) return;
-  for (auto* vectors : {&loads.p, &loads.v, &loads.t, &loads.m, &loads.load, &loads.torque})
+  for (auto* vectors : {&loads.p, &loads.v, &loads.t, &loads.m, &loads.turn, &loads.load, &loads.torque})
     vectors->assign(n, Vec3::Zero());
   loads.spin.assign(n, 0.0);
 }

@@ -67,7 +67,7 @@ struct Gradient {
 
 /// What forces other than gravity see and give; empty without them.
 struct LoadColumns {
-  std::vector<Vec3> p, v, t, m;
+  std::vector<Vec3> p, v, t, m, turn;
   std::vector<double> spin;
   std::vector<Vec3> load, torque;
   std::vector<Wrench> on_bodies;  ///< there also without forces, for the bodies' rates

@@ -18,12 +18,14 @@ struct Movable {
         v(view.v.begin(), view.v.end()),
         t(view.t.begin(), view.t.end()),
         m(view.m.begin(), view.m.end()),
+        turn(view.turn.begin(), view.turn.end()),
         spin(view.spin.begin(), view.spin.end()),
         bodies(view.bodies.begin(), view.bodies.end()) {
     seen.p = p;
     seen.v = v;
     seen.t = t;
     seen.m = m;
+    seen.turn = turn;
     seen.spin = spin;
     seen.bodies = bodies;
     for (const NodeRange& rod : view.rods)
@@ -37,7 +39,7 @@ struct Movable {
   std::size_t indices() const { return p.size() + 2 * bodies.size(); }
 
   StateView seen;
-  Vectors p, v, t, m;
+  Vectors p, v, t, m, turn;
   std::vector<double> spin;
   std::vector<BodyView> bodies;
   double length = 0.0, speed = 0.0;

@@ -46,7 +46,8 @@ StateView StaticLoads::view_of(const State& state, const std::vector<Frame>& fra
     t_[i] = frames[i].z;
     m_[i] = frames[i].y;
   }
-  return {state.time, p_, v_, t_, spin_, mass_, width_, system_.rods(), m_};
+  // Nothing moves: turns are as the velocities, zeros.
+  return {state.time, p_, v_, t_, spin_, mass_, width_, system_.rods(), m_, nullptr, {}, v_};
 }
 
 Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& potential,

@@ -132,6 +132,26 @@ CurvePair RodCurves::pair(const StateView& state, std::size_t rod) const {
   return through(rod, p, q);
 }
 
+CurvePair RodCurves::rates(const StateView& state, std::size_t rod) const {
+  std::vector<Vec3> q = arms(state, rod);
+  const std::size_t first = rods_[rod].first;
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = state.v[first + i] + state.turn[first + i].cross(q[i]);
+  return through(rod, state.v.subspan(first, q.size()), q);
+}
+
+double RodCurves::gain(std::size_t rod) const {
+  const One& one = rods_.at(rod);
+  std::vector<double> sum(one.by_m.size(), 0.0);
+  std::vector<Vec3> unit(sum.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    unit[k].x() = 1.0;
+    const std::vector<Vec3> column = one.fit.solve(unit);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::abs(column[i].x());
+    unit[k].x() = 0.0;
+  }
+  return *std::max_element(sum.begin(), sum.end());
+}
+
 void RodCurves::add_loads(const StateView& state, std::size_t rod, const ControlForces& forces,
                           const Loads& loads) const {
   const MassLoads on_masses = loads_on_masses(rods_.at(rod).fit, forces, arms(state, rod));

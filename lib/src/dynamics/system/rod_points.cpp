@@ -1,0 +1,50 @@
+#include <tendril/base/error.h>
+#include <tendril/dynamics/rod_points.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace tendril {
+namespace {
+
+constexpr double kMost = 1e150;  // squares of what is farther overflow
+
+bool fits(Points points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const Vec3& x) { return x.cwiseAbs().maxCoeff() < kMost; });
+}
+
+}  // namespace
+
+RodPoints::RodPoints(RodCurves curves, std::vector<std::size_t> rods,
+                     std::shared_ptr<const LoadedPoints> points)
+    : curves_(std::move(curves)), rods_(std::move(rods)), points_(std::move(points)) {
+  if (!points_) throw InvalidInput("points", "none", "bound points");
+  if (rods_.empty()) throw InvalidInput("rods", "none", "one for each curve-pair");
+  for (std::size_t i = 0; i < rods_.size(); ++i)
+    if (rods_[i] >= curves_.size())
+      throw InvalidInput("rods[" + std::to_string(i) + "]", std::to_string(rods_[i]),
+                         "below " + std::to_string(curves_.size()));
+}
+
+std::vector<CurvePair> RodPoints::pairs(const StateView& state) const {
+  std::vector<CurvePair> result;
+  if (!fits(state.p)) return result;
+  for (const std::size_t rod : rods_) result.push_back(curves_.pair(state, rod));
+  return result;
+}
+
+std::vector<CurvePair> RodPoints::rates(const StateView& state) const {
+  std::vector<CurvePair> result;
+  if (!fits(state.v) || !fits(state.turn)) return result;
+  for (const std::size_t rod : rods_) result.push_back(curves_.rates(state, rod));
+  return result;
+}
+
+void RodPoints::add_loads(const StateView& state, std::span<const ControlForces> forces,
+                          const Loads& loads) const {
+  for (std::size_t i = 0; i < rods_.size(); ++i) curves_.add_loads(state, rods_[i], forces[i], loads);
+}
+
+}  // namespace tendril
