@@ -5,18 +5,12 @@
 #include <cstdint>
 
 #include "contact/by_key.h"
+#include "contact/kept_touch.h"
 #include "contact/response.h"
 #include "contact/rod_line.h"
 #include "contact/solids.h"
 
 namespace tendril::contact {
-
-/// A point's contact with a solid at the last accepted state.
-struct KeptTouch {
-  std::uint64_t key;  ///< point times the number of colliders, plus the collider
-  Vec3 stick_at;      ///< where it sticks, in the frame of the solid
-  Vec3 x, friction;   ///< where it was in the world, and the friction on it
-};
 
 /// What is remembered besides what is told: where everything was at the last accepted state, and how far it
 /// may move before a point comes into the range of a solid.

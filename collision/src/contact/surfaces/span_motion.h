@@ -1,0 +1,41 @@
+#pragma once
+
+#include <tendril/contact/collider.h>
+#include <tendril/curve/curve_pair.h>
+
+#include <array>
+#include <cstdint>
+
+namespace tendril::contact {
+
+/// A span of a curve-pair that vertices are bound to.
+struct UsedSpan {
+  UsedSpan(std::uint32_t pair, const KnotVector& knots, int span);
+
+  std::uint32_t pair, first, count;     ///< its control points [first, first + count)
+  std::array<double, kMaxDegree> rise;  ///< of each difference of them in the derivative
+  double reach = 0.0;                   ///< largest |u| + |v| + |w| of what is bound to it
+};
+
+/// What bounds a frame's turns from a pose: at least |c'| and |n'|, n' the part of n = c_D - c across c', and
+/// at most |n|, all over the span. Speeds of 0 or less say nothing.
+struct SpanShape {
+  double least_speed, least_across, most_offset;
+};
+SpanShape shape_of(const UsedSpan& span, const CurvePair& pair);
+
+/// Curve-pairs in the frame of a solid.
+struct PosedFrom {
+  const CurvePair& pair;
+  const Placement& solid;
+};
+
+/// How far a point that is bound to the span moved at most between two poses, each seen from its solid;
+/// infinite where the shape before says nothing. With dU, dD, dN the largest changes of control points, of
+/// those of c' and of n: Z = c' / |c'| turned by at most a = 2 dD / |c'|, the unit vector along n' by at most
+/// b = 2 (2 dN + a |n|) / |n'|, the axis across both by a + b; so a point moved by at most
+/// dU + (|u| + |v| + |w|) (a + b).
+double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
+              const PosedFrom& now);
+
+}  // namespace tendril::contact

@@ -1,0 +1,121 @@
+#include <tendril/base/error.h>
+#include <tendril/contact/surface_contact.h>
+
+#include <string>
+#include <utility>
+
+#include "surface_touch.h"
+
+namespace tendril::contact {
+namespace {
+
+/// Forces on vertices, by the patches that have them: a vertex of two patches stands twice.
+class VertexForces {
+ public:
+  void add(const NearPoint& at, const Vec3& force) {
+    if (at.patch != patch_) begin(*at.patch);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (at.at->share[i] == 0.0) continue;
+      const std::uint32_t corner = at.triangle->corner[i];
+      if (entry_[corner] == kNone) {
+        entry_[corner] = vertices_.size();
+        vertices_.push_back(at.patch->vertices[corner]);
+        force_.emplace_back(Vec3::Zero());
+      }
+      force_[entry_[corner]] += at.at->share[i] * force;
+    }
+  }
+  std::span<const std::uint32_t> vertices() const { return vertices_; }
+  Points forces() const { return force_; }
+
+ private:
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  void begin(const Patch& patch) {
+    patch_ = &patch;
+    entry_.assign(patch.vertices.size(), kNone);
+  }
+
+  const Patch* patch_ = nullptr;
+  std::vector<std::size_t> entry_;  ///< of the patch's vertices
+  std::vector<std::uint32_t> vertices_;
+  std::vector<Vec3> force_;
+};
+
+}  // namespace
+
+SurfaceContact::SurfaceContact(ContactSurface surface, std::vector<Collider> colliders, const Law& law)
+    : model_(std::make_unique<const SurfaceModel>(std::move(surface), std::move(colliders), law)) {}
+SurfaceContact::~SurfaceContact() = default;
+
+void SurfaceContact::add(const StateView& state, const Loads& loads) const {
+  const SurfaceModel& model = *model_;
+  const SurfaceLedger* kept = surface_ledger_of(state.memory);
+  PosedSurface surface(model, state, kept);
+  const std::size_t node = state.rods[model.points().rods().front()].first;
+  if (!surface.sound()) return loads.refuse(node);
+  VertexForces forces;
+  const auto closed = each_meeting(model, surface, kept, [&](const SurfaceMeeting& meeting) {
+    const Nearness& near = meeting.at.near;
+    forces.add(meeting.at, meeting.response.force);
+    if (const auto& body = model.colliders[near.collider].body)
+      loads.bodies[*body].add_at(near.x, -meeting.response.force, near.placed->position);
+  });
+  if (closed) return loads.refuse(node);
+  if (forces.vertices().empty()) return;
+  if (!all_finite(forces.forces())) return loads.refuse(node);
+  model.points().add_loads(
+      state, model.points().points().pull_back(surface.pairs(), forces.vertices(), forces.forces()), loads);
+}
+
+Couplings SurfaceContact::couplings(std::span<const NodeRange> rods) const {
+  const std::size_t nodes = rods.empty() ? 0 : rods.back().first + rods.back().count;
+  std::vector<std::size_t> all;
+  for (const std::size_t rod : model_->points().rods())
+    for (std::size_t i = rods[rod].first; i < rods[rod].first + rods[rod].count; ++i) all.push_back(i);
+  for (const std::size_t body : model_->colliders.bodies)
+    for (const std::size_t turn : {0, 1}) all.push_back(nodes + 2 * body + turn);
+  return Couplings::among(all);
+}
+
+Couplings SurfaceContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {
+  model_->colliders.check_bodies(bodies);
+  return couplings(rods);
+}
+
+void SurfaceContact::check(std::span<const NodeRange> rods) const {
+  if (model_->points().curves().size() != rods.size())
+    throw InvalidInput("contact.surface.points", std::to_string(model_->points().curves().size()) + " rods",
+                       "those of the scene, " + std::to_string(rods.size()));
+  for (const std::size_t rod : model_->points().rods())
+    if (model_->points().curves().parameters(rod).size() != rods[rod].count)
+      throw InvalidInput("contact.surface.points", "rod " + std::to_string(rod) + " has other masses",
+                         "those of the scene");
+}
+
+bool SurfaceContact::has_energy() const {
+  return !model_->colliders.driven && conservative(model_->law);
+}
+
+double SurfaceContact::energy(const StateView& state) const {
+  double sum = 0.0;
+  const SurfaceLedger* kept = surface_ledger_of(state.memory);
+  PosedSurface surface(*model_, state, kept);
+  each_meeting(*model_, surface, kept, [&](const SurfaceMeeting& meeting) {
+    sum += meeting.at.at->weight * model_->law.stiffness * potential(model_->law, meeting.at.near.gap).value;
+  });
+  return sum;
+}
+
+bool SurfaceContact::refuses() const {
+  return model_->barrier();
+}
+
+bool SurfaceContact::depends_on_time() const {
+  return model_->colliders.driven;
+}
+
+std::vector<double> SurfaceContact::breaks() const {
+  return model_->colliders.breaks();
+}
+
+}  // namespace tendril::contact

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "contact/surfaces/span_motion.h"
+#include "leaf.h"
+
+namespace tendril::contact {
+namespace {
+
+using test::Random;
+using test::Shown;
+using test::shown_of;
+using test::stalks;
+
+/// Loads on masses and frames do the work of forces on the points.
+TEST(RodPoints, LoadsDoTheWorkOfForcesOnPoints) {
+  Random random(3);
+  const std::vector<Rod> rods = stalks();
+  const test::Leaf leaf = test::leaf(1.0, 0.2, 20, 4);
+  const contact::ContactSurface surface = test::surface_on(rods, leaf, 0.01);
+  const RodPoints& points = *surface.points;
+  std::vector<std::uint32_t> all(leaf.points.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  for (int round = 0; round < 10; ++round) {
+    const Shown s = shown_of(rods, random, 0.02, 1.0);
+    const auto pairs = points.pairs(s.view()), rates = points.rates(s.view());
+    std::vector<Vec3> velocity(all.size()), forces;
+    points.points().velocities(pairs, rates, all, velocity);
+    double power = 0.0, scale = 0.0;
+    for (const Vec3& v : velocity) {
+      forces.push_back(random.in_cube(1.0));
+      power += forces.back().dot(v);
+      scale += v.norm();
+    }
+    std::vector<Vec3> force(s.p.size(), Vec3::Zero()), torque = force;
+    points.add_loads(s.view(), points.points().pull_back(pairs, all, forces), {force, torque});
+    for (std::size_t i = 0; i < force.size(); ++i) power -= force[i].dot(s.v[i]) + torque[i].dot(s.turn[i]);
+    EXPECT_LT(std::abs(power), 1e-12 * scale);
+
+    // And velocities are what differences of places say.
+    const double h = 1e-5;
+    std::vector<Vec3> there(all.size()), here(all.size());
+    const auto moved = [&](double by) {
+      std::vector<CurvePair> out;
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto at = [&](Points u, Points rate) {
+          std::vector<Vec3> x(u.begin(), u.end());
+          for (std::size_t i = 0; i < x.size(); ++i) x[i] += by * rate[i];
+          return x;
+        };
+        out.emplace_back(
+            pairs[k].knots(), at(pairs[k].primary().control_points(), rates[k].primary().control_points()),
+            at(pairs[k].orientation().control_points(), rates[k].orientation().control_points()));
+      }
+      return out;
+    };
+    points.points().place(moved(h), all, there);
+    points.points().place(moved(-h), all, here);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_LT((velocity[i] - (there[i] - here[i]) / (2 * h)).norm(), 2e-7 * (1.0 + velocity[i].norm()));
+  }
+}
+
+/// Curve-pairs anyhow, and moved anyhow: no bound point moves farther.
+TEST(SpanMotion, BoundsWhatPointsMove) {
+  Random random(8);
+  const KnotVector knots = KnotVector::uniform(3, 8);
+  double closest = 0.0;
+  for (int round = 0; round < 400; ++round) {
+    const double by = std::pow(10.0, random.uniform(-4.0, -0.5));
+    const auto pair = [&](double shake, const CurvePair* from) {
+      std::vector<Vec3> u, v;
+      for (int i = 0; i < 8; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        u.push_back((from ? from->primary().control_points()[k] : Vec3(i, 0, 0)) + random.in_cube(shake));
+        v.push_back((from ? from->orientation().control_points()[k] : Vec3(i, 0, 1)) + random.in_cube(shake));
+      }
+      return CurvePair(knots, u, v);
+    };
+    const CurvePair before = pair(0.15, nullptr), now = pair(by, &before);
+    Placement still, placed;
+    placed.position = random.in_cube(by);
+    placed.rotation = Eigen::AngleAxisd(by, random.in_cube(1.0).normalized()).toRotationMatrix();
+    UsedSpan span(0, knots, 3 + round % 5);
+    span.reach = 0.8;
+    const double bound = motion(span, shape_of(span, before), {before, still}, {now, placed});
+    ASSERT_TRUE(bound < 1e9 || round > 0);
+    for (int point = 0; point < 20; ++point) {
+      const double start = knots.knots()[static_cast<std::size_t>(3 + round % 5)];
+      const AxialPoint at{start + random.uniform(0.0, 0.2), random.uniform(-0.4, 0.4),
+                          random.uniform(-0.4, 0.4), 0.0};
+      const double moved =
+          (placed.to_local(from_axial(now, at)) - still.to_local(from_axial(before, at))).norm();
+      EXPECT_LE(moved, bound);
+      if (bound > 0.0) closest = std::max(closest, moved / bound);
+    }
+  }
+  std::cout << "a point moved " << closest << " of its bound\n";
+  EXPECT_GT(closest, 0.02);
+}
+
+}  // namespace
+}  // namespace tendril::contact
