@@ -124,6 +124,45 @@ TEST(ContactScene, RodsMeetEachOther) {
   EXPECT_LT(through.snapshot().masses[1][2].z(), 0.0);
 }
 
+/// A flat blade about the rod.
+bind::PolygonMesh blade() {
+  bind::PolygonMesh mesh;
+  for (int i = 0; i <= 8; ++i)
+    for (const double y : {-0.1, 0.0, 0.1}) mesh.points.emplace_back(0.1 * i, y, 0.52);
+  for (std::uint32_t i = 0; i < 8; ++i)
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      const std::uint32_t a = 3 * i + j;
+      for (const std::uint32_t corner : {a, a + 3, a + 4, a + 1}) mesh.corners.push_back(corner);
+      mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+    }
+  return mesh;
+}
+
+TEST(ContactScene, ABallMeetsTheMeshBesideItsRod) {
+  Json json = scene();
+  json["contact"] = {{"of", "mesh"}, {"skin", 0.005}, {"friction", 0.3}};
+  json["curve_pairs"][0].erase("viscosity");
+  json["bodies"][1]["position"] = {0.5, 0.06, 0.6};
+  json["simulation"]["duration"] = 0.05;
+  scene::SceneRun run(read(json), blade());
+  double pressed = 0.0;
+  std::size_t face = 99;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    EXPECT_TRUE(now.contacts.empty());
+    for (const scene::MeshContactPoint& c : now.mesh_contacts) {
+      EXPECT_EQ(c.body, 1u);
+      EXPECT_GT(c.gap, 0.0);
+      pressed = std::max(pressed, -c.force.z());
+      face = c.face;
+    }
+  });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(pressed, 0.0);
+  ASSERT_LT(face, run.mesh()->mesh().face_count());
+  EXPECT_GT(run.mesh()->mesh().points[run.mesh()->mesh().face(face)[2]].y(), 0.0);
+  EXPECT_GT(run.snapshot().bodies[1].position.z(), 0.54);
+}
+
 std::string refusal(const Json& json) {
   try {
     scene::SceneRun run(read(json));
@@ -149,6 +188,14 @@ TEST(ContactScene, RefusesWithThePlace) {
   expect([](Json& s) { s["bodies"][2]["shape"]["size"] = {1, 0, 1}; }, "#/bodies/2");
   expect([](Json& s) { s["contact"]["range"] = 0.0; }, "#/contact/range");
   expect([](Json& s) { s.erase("bodies"); }, "#/contact");
+  expect([](Json& s) { s["contact"]["skin"] = 0.01; }, "#/contact/skin");
+  expect([](Json& s) { s["contact"]["of"] = "mesh"; }, "#/contact");
+  expect(
+      [](Json& s) {
+        s["contact"]["of"] = "mesh";
+        s["contact"]["skin"] = 0.01;
+      },
+      "not bound");
   expect([](Json& s) { s["self_contact"] = {{"range", -1.0}}; }, "#/self_contact/range");
   expect([](Json& s) { s.erase("forces"); }, "#/contact");
   expect(

@@ -12,6 +12,14 @@ void append(std::string& line, std::size_t number) {
   line.append(1, ',').append(std::to_string(number));
 }
 
+/// What all contacts have in common, to the end of the line.
+template <class Contact>
+void append_meeting(std::string& line, const Contact& c) {
+  line.append(1, ',').append(shortest(c.gap));
+  for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(line, v);
+  line += c.sticks ? ",1\n" : ",0\n";
+}
+
 }  // namespace
 
 void ContactTables::add(const scene::Snapshot& snapshot) {
@@ -30,9 +38,13 @@ void ContactTables::add(const scene::Snapshot& snapshot) {
     append(contacts_, c.node);
     contacts_.append(1, ',').append(shortest(c.fraction));
     append(contacts_, c.body);
-    contacts_.append(1, ',').append(shortest(c.gap));
-    for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(contacts_, v);
-    contacts_ += c.sticks ? ",1\n" : ",0\n";
+    append_meeting(contacts_, c);
+  }
+  for (const scene::MeshContactPoint& c : snapshot.mesh_contacts) {
+    mesh_contacts_ += time;
+    append(mesh_contacts_, c.face);
+    append(mesh_contacts_, c.body);
+    append_meeting(mesh_contacts_, c);
   }
   for (const scene::RodContactPoint& c : snapshot.rod_contacts) {
     rod_contacts_ += time;
@@ -41,9 +53,7 @@ void ContactTables::add(const scene::Snapshot& snapshot) {
       append(rod_contacts_, c.node[i]);
       rod_contacts_.append(1, ',').append(shortest(c.fraction[i]));
     }
-    rod_contacts_.append(1, ',').append(shortest(c.gap));
-    for (const Vec3& v : {c.point, c.normal, c.force, c.friction}) append(rod_contacts_, v);
-    rod_contacts_ += c.sticks ? ",1\n" : ",0\n";
+    append_meeting(rod_contacts_, c);
   }
 }
 

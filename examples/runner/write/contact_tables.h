@@ -16,6 +16,8 @@ class ContactTables {
   const std::string& bodies() const { return bodies_; }
   /// A line for each output and point in contact.
   const std::string& contacts() const { return contacts_; }
+  /// A line for each output and point of the mesh in contact.
+  const std::string& mesh_contacts() const { return mesh_contacts_; }
   /// A line for each output and pair of points of rods in contact.
   const std::string& rod_contacts() const { return rod_contacts_; }
 
@@ -23,6 +25,8 @@ class ContactTables {
   std::string bodies_ = "time,body,x,y,z,xx,xy,xz,zx,zy,zz\n";
   std::string contacts_ =
       "time,rod,node,fraction,body,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
+  std::string mesh_contacts_ =
+      "time,face,body,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
   std::string rod_contacts_ =
       "time,rod,node,fraction,other_rod,other_node,other_fraction,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,"
       "friction_y,friction_z,sticks\n";

@@ -72,7 +72,10 @@ void Recorder::write_trajectory() {
   if (file_.self_contact) write("rod_contacts.csv", contact_.rod_contacts());
   if (file_.bodies.empty()) return;
   write("bodies.csv", contact_.bodies());
-  write("contacts.csv", contact_.contacts());
+  if (file_.make_mesh_contact)
+    write("mesh_contacts.csv", contact_.mesh_contacts());
+  else
+    write("contacts.csv", contact_.contacts());
 }
 
 void Recorder::write(const std::string& name, const std::string& bytes) {

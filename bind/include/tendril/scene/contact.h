@@ -2,6 +2,7 @@
 
 #include <tendril/base/types.h>
 #include <tendril/dynamics/anchor.h>
+#include <tendril/dynamics/rod_points.h>
 
 #include <array>
 #include <functional>
@@ -64,5 +65,23 @@ struct RodContactPoint {
   Vec3 friction;                          ///< of it
   bool sticks;                            ///< friction below mu N
 };
+
+/// A point of the scene's mesh in contact with a solid.
+struct MeshContactPoint {
+  std::size_t face;  ///< of the mesh
+  std::size_t body;  ///< index
+  double gap;        ///< between the solid and the skin [length]
+  Vec3 point;        ///< on the face
+  Vec3 normal;       ///< away from the solid, unit
+  Vec3 force;        ///< on the mesh, friction included
+  Vec3 friction;     ///< of it
+  bool sticks;       ///< friction below mu N
+};
+
+/// The contact of a mesh with the scene's solids, made once the mesh is bound: of vertices, where they rest,
+/// and triangles.
+using MeshContact =
+    std::function<std::shared_ptr<const Force>(std::shared_ptr<const RodPoints>, const std::vector<Vec3>&,
+                                               const std::vector<std::array<std::uint32_t, 3>>&)>;
 
 }  // namespace tendril::scene

@@ -19,14 +19,15 @@ struct RunOptions {
 
 /// A scene at one moment, all of it a copy. Positions are in the scene's units.
 struct Snapshot {
-  double time = 0.0;                               ///< of the scene
-  std::vector<Vec3> points;                        ///< of the mesh, in its order; empty without a mesh
-  std::vector<CurvePair> pairs;                    ///< the curve-pairs
-  std::vector<std::vector<Vec3>> masses;           ///< per curve-pair and node
-  std::vector<std::vector<Vec3>> orientation;      ///< the orientation masses beside them
-  std::vector<SolidPose> bodies = {};              ///< of the scene's solids
-  std::vector<ContactPoint> contacts = {};         ///< of rods with them
-  std::vector<RodContactPoint> rod_contacts = {};  ///< of rods with each other and themselves
+  double time = 0.0;                                 ///< of the scene
+  std::vector<Vec3> points;                          ///< of the mesh, in its order; empty without a mesh
+  std::vector<CurvePair> pairs;                      ///< the curve-pairs
+  std::vector<std::vector<Vec3>> masses;             ///< per curve-pair and node
+  std::vector<std::vector<Vec3>> orientation;        ///< the orientation masses beside them
+  std::vector<SolidPose> bodies = {};                ///< of the scene's solids
+  std::vector<ContactPoint> contacts = {};           ///< of rods with them
+  std::vector<MeshContactPoint> mesh_contacts = {};  ///< of the mesh with them
+  std::vector<RodContactPoint> rod_contacts = {};    ///< of rods with each other and themselves
 };
 
 /// Seconds of wall time, outputs not counted.

@@ -5,11 +5,13 @@
 #include <tendril/contact/body_contact.h>
 #include <tendril/contact/rod_contact.h>
 #include <tendril/contact/rod_rod_contact.h>
+#include <tendril/contact/surface_contact.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 namespace tendril::scene {
 namespace {
@@ -214,22 +216,81 @@ double crossing_stiffness(const JsonNode& contact, const SceneFile& scene, doubl
 /// A stiffness for a range and the least radius of rods.
 using Stiffness = double (*)(const JsonNode& contact, const SceneFile& scene, double range, double radius);
 
+/// What a file may say of a law, beside stiffness and range.
+void read_rest(const JsonNode& node, contact::Law& law) {
+  if (node.text_or("response", "barrier") == "penalty") law.kind = contact::Law::Kind::penalty;
+  law.friction = node.has("friction") ? node.at("friction").not_negative() : 0.0;
+  law.damping = node.has("damping") ? node.at("damping").not_negative() : 0.0;
+  if (node.has("stick_damping")) law.stick_damping = node.at("stick_damping").not_negative();
+  if (node.has("stick_stiffness")) law.stick_stiffness = node.at("stick_stiffness").positive();
+}
+
 /// The range is a share of the thinnest rod: shapes seem larger by half of it, so it has to be small beside
 /// what is thick, and steps shrink with it, so no smaller than the eye asks for.
 contact::Law read_law(const JsonNode& node, const SceneFile& scene,
                       const std::vector<contact::ContactRod>& rods, Stiffness stiffness) {
   contact::Law law;
-  if (node.text_or("response", "barrier") == "penalty") law.kind = contact::Law::Kind::penalty;
+  read_rest(node, law);
   double least = std::numeric_limits<double>::infinity();
   for (const contact::ContactRod& rod : rods) least = std::min(least, rod.radius);
   law.range = node.has("range") ? node.at("range").positive() : kRangeOfRadius * least;
   law.stiffness =
       node.has("stiffness") ? node.at("stiffness").positive() : stiffness(node, scene, law.range, least);
-  law.friction = node.has("friction") ? node.at("friction").not_negative() : 0.0;
-  law.damping = node.has("damping") ? node.at("damping").not_negative() : 0.0;
-  if (node.has("stick_damping")) law.stick_damping = node.at("stick_damping").not_negative();
-  if (node.has("stick_stiffness")) law.stick_stiffness = node.at("stick_stiffness").positive();
   return law;
+}
+
+double area_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : triangles)
+    sum += 0.5 * (points[b] - points[a]).cross(points[c] - points[a]).norm();
+  return sum;
+}
+
+/// A barrier, per area, that carries a tenth of what all rods and the heaviest body gain when they fall by
+/// the longest rod, on what of the surface is within half the range of a ball of the smallest radius: pi R
+/// range.
+double surface_stiffness(double energy, const std::vector<contact::Collider>& colliders, double skin,
+                         double range, double area) {
+  double least = area;
+  for (const contact::Collider& collider : colliders)
+    least = std::min(least, std::numbers::pi * (collider.shape->outward_radius() + skin) * range);
+  return kCarries * energy / (least * range * range);
+}
+
+/// Of the mesh with bodies, and of these with each other. A ball of radius r weighs 2 r among bodies, and
+/// pi r range on a surface: their stiffness follows.
+void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider>& colliders,
+                       SceneFile& out) {
+  const double skin = node.at("skin").positive();
+  contact::Law law;
+  read_rest(node, law);
+  law.range = node.has("range") ? node.at("range").positive() : skin;
+  double energy = 0.0;
+  law.stiffness = 0.0;
+  if (node.has("stiffness")) {
+    law.stiffness = node.at("stiffness").positive();
+  } else {
+    const Falling falling = falling_of(node, out);
+    double heaviest = 0.0;
+    for (const Body& body : out.scene.bodies) heaviest = std::max(heaviest, body.mass);
+    energy = (falling.mass + heaviest) * falling.g * falling.longest;
+  }
+  out.mesh_contact_place = node.pointer();
+  out.make_mesh_contact = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
+                              const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    contact::Law of_area = law;
+    if (law.stiffness == 0.0)
+      of_area.stiffness = surface_stiffness(energy, colliders, skin, law.range, area_of(rest, triangles));
+    return std::make_shared<contact::SurfaceContact>(
+        contact::ContactSurface{std::move(points), rest, triangles, skin}, colliders, of_area);
+  };
+  if (out.scene.bodies.empty() || colliders.size() < 2) return;
+  if (law.stiffness == 0.0)
+    law.stiffness =
+        surface_stiffness(energy, colliders, skin, law.range, std::numeric_limits<double>::infinity());
+  law.stiffness *= 0.5 * std::numbers::pi * law.range;
+  node.locate([&] { out.scene.forces.push_back(std::make_shared<contact::BodyContact>(colliders, law)); });
+  out.force_places.push_back(node.pointer());
 }
 
 /// Of rods with each other and themselves.
@@ -259,9 +320,11 @@ void read_body_contact(const JsonNode& file, SceneFile& out) {
   static const Json kDefault = Json::object();
   const JsonNode contact = file.has("contact") ? file.at("contact") : JsonNode(file.file(), kDefault, "");
   if (contact.text_or("response", "barrier") == "off" || out.bodies.empty()) return;
-  const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   std::vector<contact::Collider> colliders;
   for (const SceneBody& body : out.bodies) colliders.push_back(make_collider(body));
+  if (contact.text_or("of", "rods") == "mesh") return read_mesh_contact(contact, colliders, out);
+  if (contact.has("skin")) contact.at("skin").refuse("of rods", "\"of\": \"mesh\" beside it");
+  const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   const JsonNode place = file.has("contact") ? contact : list;
   const contact::Law law = read_law(contact, out, rods, default_stiffness);
   const auto add = [&](std::shared_ptr<const Force> force) {
@@ -296,6 +359,15 @@ std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state)
   for (const contact::Contact& c : memory->contacts)
     result.push_back(
         {c.rod, c.node, c.fraction, c.solid, c.gap, c.point, c.normal, c.force, c.friction, c.sticks});
+  return result;
+}
+
+std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile& file, const State& state) {
+  std::vector<MeshContactPoint> result;
+  const auto* memory = memory_of<contact::SurfaceMemory>(file.mesh_contact, state);
+  if (memory == nullptr) return result;
+  for (const contact::SurfaceTouch& t : memory->touches)
+    result.push_back({t.triangle, t.solid, t.gap, t.point, t.normal, t.force, t.friction, t.sticks});
   return result;
 }
 

@@ -12,6 +12,8 @@ void read_contact(const JsonNode& file, SceneFile& out);
 
 /// Where rods are in contact with bodies at an accepted state of the scene.
 std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state);
+/// And the mesh; faces are triangles of MeshContact still.
+std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile& file, const State& state);
 /// And with each other and themselves.
 std::vector<RodContactPoint> rod_contacts_of(const SceneFile& file, const State& state);
 

@@ -12,6 +12,9 @@ void read_contact(const JsonNode& file, SceneFile&) {
 std::vector<ContactPoint> contacts_of(const SceneFile&, const State&) {
   return {};
 }
+std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile&, const State&) {
+  return {};
+}
 std::vector<RodContactPoint> rod_contacts_of(const SceneFile&, const State&) {
   return {};
 }

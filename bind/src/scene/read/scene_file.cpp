@@ -138,6 +138,7 @@ std::optional<std::size_t> index_of(const std::string& place, const std::string&
 /// The part of the file that a place in the library's words is about; empty where it is about all of it.
 std::string pointer_of(const SceneFile& file, const std::string& place) {
   if (const auto rod = index_of(place, "rods")) return "/curve_pairs/" + std::to_string(*rod);
+  if (place.rfind("contact", 0) == 0 && file.make_mesh_contact) return file.mesh_contact_place;
   if (place.rfind("contact", 0) == 0 && file.contact) return file.force_places[*file.contact];
   if (const auto body = index_of(place, "bodies"))
     for (const SceneBody& one : file.bodies)
@@ -194,6 +195,10 @@ SceneError in_scene(const SceneFile& file, const InvalidInput& error) {
 }
 
 System make_system(const SceneFile& file) {
+  if (file.make_mesh_contact && !file.mesh_contact)
+    throw SceneError({file.path, file.mesh_contact_place, line_of(file.text, file.mesh_contact_place)},
+                     "contact of a mesh that is not bound",
+                     "a run of a scene with a mesh; or contact of rods");
   try {
     System system(file.scene);
     const State rest = system.rest_state();

@@ -1,7 +1,9 @@
 #include "scene/read/contact_reader.h"
 
+#include <tendril/bind/binding_points.h>
 #include <tendril/scene/scene_run.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace tendril::scene {
@@ -29,6 +31,37 @@ SolidPose pose_of(const SceneBody& body, const std::vector<BodyView>& free, doub
   return out;
 }
 
+/// Gives the scene the contact of its mesh, where that is asked for; of all faces that follow rods, which are
+/// returned, a triangle each.
+std::vector<std::size_t> let_meet(const BoundMesh& mesh, SceneFile& file) {
+  std::vector<std::size_t> face_of;
+  if (!file.make_mesh_contact) return face_of;
+  const bind::PolygonMesh& at_rest = mesh.mesh();
+  std::vector<bool> still(at_rest.points.size(), false);
+  for (const std::size_t i : mesh.out_of_reach()) still[i] = true;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t f = 0; f < at_rest.face_count(); ++f) {
+    const auto face = at_rest.face(f);
+    if (std::any_of(face.begin(), face.end(), [&](std::uint32_t corner) { return still[corner]; })) continue;
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      triangles.push_back({face[0], face[i - 1], face[i]});
+      face_of.push_back(f);
+    }
+  }
+  try {
+    auto points = std::make_shared<RodPoints>(
+        RodCurves(file.scene.rods, file.options.degree, file.options.parametrisation), file.bound_to,
+        std::make_shared<bind::BindingPoints>(mesh.binding()));
+    auto force = file.make_mesh_contact(std::move(points), at_rest.points, triangles);
+    file.mesh_contact = file.scene.forces.size();
+    file.scene.forces.push_back(std::move(force));
+    file.force_places.push_back(file.mesh_contact_place);
+  } catch (const InvalidInput& error) {
+    throw in_scene(file, error);
+  }
+  return face_of;
+}
+
 Simulation make_simulation(const SceneFile& file, const System& system, const RunOptions& options) {
   try {
     return {system, options.start ? *options.start : system.rest_state(), file.options};
@@ -41,25 +74,30 @@ Simulation make_simulation(const SceneFile& file, const System& system, const Ru
 
 struct SceneRun::Implementation : Follower {
   SceneFile file;
+  int threads;
+  RunSeconds seconds;
+  std::optional<BoundMesh> mesh;
+  std::vector<std::size_t> contact_face;  ///< of the triangles that meet solids
   System system;
   Simulation simulation;
   System::WorkspacePtr work;
-  std::optional<BoundMesh> mesh;
-  int threads;
   Output output;
   std::size_t outputs = 0;
-  RunSeconds seconds;
   double interrupted = 0.0;  ///< seconds of a run that were spent on outputs
 
   Implementation(SceneFile scene, bind::PolygonMesh surface, const RunOptions& options)
       : file(std::move(scene)),
+        threads(options.threads),
+        mesh(bind_mesh(std::move(surface), options)),
+        contact_face(mesh ? let_meet(*mesh, file) : std::vector<std::size_t>{}),
         system(make_system(file)),
         simulation(make_simulation(file, system, options)),
-        work(system.make_workspace()),
-        threads(options.threads) {
-    if (surface.points.empty()) return;
+        work(system.make_workspace()) {}
+
+  std::optional<BoundMesh> bind_mesh(bind::PolygonMesh surface, const RunOptions& options) {
+    if (surface.points.empty()) return {};
     const Stopwatch watch(seconds.bind);
-    mesh.emplace(file, std::move(surface), options.mode, threads);
+    return BoundMesh(file, std::move(surface), options.mode, threads);
   }
 
   void follow(double, std::span<const CurvePair>) override {
@@ -76,6 +114,8 @@ struct SceneRun::Implementation : Follower {
     const std::vector<BodyView> free = system.bodies(state);
     for (const SceneBody& body : file.bodies) out.bodies.push_back(pose_of(body, free, state.time));
     out.contacts = contacts_of(file, state);
+    out.mesh_contacts = mesh_contacts_of(file, state);
+    for (MeshContactPoint& at : out.mesh_contacts) at.face = contact_face[at.face];
     out.rod_contacts = rod_contacts_of(file, state);
     if (mesh) {
       const Stopwatch watch(seconds.update);
