@@ -37,6 +37,7 @@ struct Part {
   Dyadic low;
 
   Dyadic high() const { return {low.numerator + 1, low.exponent}; }
+  Dyadic middle() const { return {low.numerator * 2 + 1, low.exponent + 1}; }
 };
 
 /// A part's only root, about, as a share of the part.
@@ -147,7 +148,31 @@ class Isolation {
     return true;
   }
 
-  bool search(const Part& part) {
+  /// A part to be searched, or what of it comes behind its first half.
+  struct Pending {
+    Part part;
+    bool begun = false, root_in_middle = false;
+  };
+
+  /// On a stack of its own: clustered roots are found hundreds of halvings deep.
+  bool search(const Part& all) {
+    std::vector<Pending> pending{{all}};
+    while (!pending.empty()) {
+      Pending next = std::move(pending.back());
+      pending.pop_back();
+      if (next.begun) {
+        const Dyadic middle = next.part.middle();
+        if (next.root_in_middle && accept({&p_, middle, middle})) return true;
+        next.part = {second_half(next.part.p), middle};
+      }
+      if (look_at(next.part, pending)) return true;
+      if (has_multiple_roots_) return false;
+    }
+    return false;
+  }
+
+  /// True when the root wanted is the only one of the part; what else there is to be searched is put aside.
+  bool look_at(const Part& part, std::vector<Pending>& pending) {
     const int changes = sign_changes(part.p);
     if (changes == 0 || ends_early(part)) return false;
     if (changes == 1) {
@@ -157,15 +182,19 @@ class Isolation {
       return accept(narrowing.root());
     }
     if (part.low.exponent >= suspicious && !is_square_free()) return false;
-    if (const unsigned closer = halvings_towards_0(part.p); closer > 2)
-      return search({restricted(part.p, {0, 0}, {1, closer}),
-                     {part.low.numerator << closer, part.low.exponent + closer}});
-    if (const unsigned closer = halvings_towards_1(part.p); closer > 2) {
-      const Integer one = Integer(1) << closer;
-      return search({restricted(part.p, {one - 1, closer}, {1, 0}),
-                     {(part.low.numerator << closer) + (one - 1), part.low.exponent + closer}});
+    if (const unsigned closer = halvings_towards_0(part.p); closer > 2) {
+      pending.push_back({{restricted(part.p, {0, 0}, {1, closer}),
+                          {part.low.numerator << closer, part.low.exponent + closer}}});
+    } else if (const unsigned near = halvings_towards_1(part.p); near > 2) {
+      const Integer one = Integer(1) << near;
+      pending.push_back({{restricted(part.p, {one - 1, near}, {1, 0}),
+                          {(part.low.numerator << near) + (one - 1), part.low.exponent + near}}});
+    } else {
+      const Part before{first_half(part.p), {part.low.numerator * 2, part.low.exponent + 1}};
+      pending.push_back({part, true, before.p.c[before.p.degree] == 0});
+      pending.push_back({before});
     }
-    return search_halves(part);
+    return false;
   }
 
   /// Asked once; if it is not, the search ends and begins anew without the multiple roots.
@@ -189,15 +218,6 @@ class Isolation {
     const Dyadic high = part.high();
     return part.low.exponent < 60 &&
            std::ldexp(static_cast<double>(high.numerator), -static_cast<int>(high.exponent)) < free_until_;
-  }
-
-  bool search_halves(const Part& part) {
-    const Part before{first_half(part.p), {part.low.numerator * 2, part.low.exponent + 1}};
-    if (search(before)) return true;
-    if (has_multiple_roots_) return false;
-    const Dyadic middle = before.high();
-    if (before.p.c[before.p.degree] == 0 && accept({&p_, middle, middle})) return true;
-    return search({second_half(part.p), middle});
   }
 
   Polynomial p_;
