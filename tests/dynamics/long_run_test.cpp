@@ -121,7 +121,11 @@ TEST(LongUndampedRun, CashKarpKeepsTheEnergyOrSaysWhen) {
   const Swing swing;
   SimulationOptions options;
   options.method = Method::cash_karp;
+#ifdef TENDRIL_LONG
   options.tolerance = 1e-5;
+#else
+  options.tolerance = 2e-6;  // at 1e-5 how numbers are rounded decides whether the limit is met within 6 s
+#endif
   Simulation simulation(swing.system, swing.system.rest_state(), options);
   const Report report = simulation.run(kDuration);
   const double error = (report.last.total() - report.first.total()) / swing.unit;
@@ -132,7 +136,7 @@ TEST(LongUndampedRun, CashKarpKeepsTheEnergyOrSaysWhen) {
   EXPECT_GT(report.time, 6.0);
 #else
   EXPECT_EQ(report.stop, Stop::finished);
-  EXPECT_LT(std::abs(error), 5e-3);
+  EXPECT_LT(std::abs(error), 1e-3);
 #endif
 }
 
