@@ -54,6 +54,19 @@ void require_valid(const PolygonMesh& mesh) {
   }
 }
 
+std::vector<std::array<std::uint32_t, 3>> fan_triangles(const PolygonMesh& mesh,
+                                                        std::vector<std::size_t>* face_of) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      triangles.push_back({face[0], face[i - 1], face[i]});
+      if (face_of != nullptr) face_of->push_back(f);
+    }
+  }
+  return triangles;
+}
+
 double bounding_diagonal(Points points) {
   if (points.empty()) return 0.0;
   Vec3 low = points.front();

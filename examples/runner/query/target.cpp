@@ -17,7 +17,7 @@ namespace {
 
 struct Fans {
   std::vector<collision::Triangle> triangles;
-  std::vector<std::uint32_t> face;
+  std::vector<std::size_t> face;
 
   std::vector<std::uint32_t> corners() const {
     std::vector<std::uint32_t> out;
@@ -29,13 +29,7 @@ struct Fans {
 Fans fans_of(const bind::PolygonMesh& mesh, const std::string& path) {
   if (mesh.face_count() == 0) throw InvalidInput(path, "no faces", "a mesh of at least one face");
   Fans out;
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    const auto corners = mesh.face(f);
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      out.triangles.push_back({corners[0], corners[i - 1], corners[i]});
-      out.face.push_back(f);
-    }
-  }
+  out.triangles = bind::fan_triangles(mesh, &out.face);
   return out;
 }
 

@@ -15,9 +15,9 @@ namespace tendril::runner {
 struct Target {
   std::string file;
   std::variant<exact::Surface, exact::BoundSurface> surface;
-  std::vector<std::uint32_t> face;  ///< of each triangle, as the mesh's file counts them
-  std::vector<Vec3> parts;          ///< a point on each connected part
-  std::size_t out_of_reach = 0;     ///< vertices that stay where they are
+  std::vector<std::size_t> face;  ///< of each triangle, as the mesh's file counts them
+  std::vector<Vec3> parts;        ///< a point on each connected part
+  std::size_t out_of_reach = 0;   ///< vertices that stay where they are
 
   bool closed() const {
     return std::visit([](const auto& s) { return s.closed(); }, surface);

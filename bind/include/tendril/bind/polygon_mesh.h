@@ -40,6 +40,12 @@ struct PolygonMesh {
 /// corners).
 TENDRIL_BIND_API void require_valid(const PolygonMesh& mesh);
 
+/// Every face as a fan of triangles about its first corner, face after face.
+/// \param mesh     valid
+/// \param face_of  gets the face of each triangle, unless null
+TENDRIL_BIND_API std::vector<std::array<std::uint32_t, 3>> fan_triangles(
+    const PolygonMesh& mesh, std::vector<std::size_t>* face_of = nullptr);
+
 /// Diagonal of the axis-aligned bounding box of the points; 0 for none. The size that tolerances are relative
 /// to.
 TENDRIL_BIND_API double bounding_diagonal(Points points);
