@@ -20,6 +20,26 @@ struct Case {
   std::function<bool(const Vec3&)> holds;  ///< whether a point is in the solid
 };
 
+/// A prism over an L: z in [-0.5, 0.5] over [-0.5, 0.5]^2 less x > 0 and y > 0. Its inner edge is hollow.
+ShapePtr prism() {
+  std::vector<Vec3> points;
+  for (const double z : {-0.5, 0.5})
+    for (const auto& [x, y] :
+         {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.0}, {0.0, 0.0}, {0.0, 0.5}, {-0.5, 0.5}})
+      points.emplace_back(x, y, z);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t next = (i + 1) % 6;
+    triangles.push_back({i, next, next + 6});
+    triangles.push_back({i, next + 6, i + 6});
+  }
+  for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, {0u, 2u, 3u}, {0u, 3u, 4u}, {0u, 4u, 5u}}) {
+    triangles.push_back({a, c, b});
+    triangles.push_back({a + 6, b + 6, c + 6});
+  }
+  return mesh(points, triangles);
+}
+
 std::vector<Case> cases() {
   const auto rho = [](const Vec3& x) { return std::hypot(x.x(), x.y()); };
   const auto box_half = Vec3(0.7, 0.4, 0.2);
@@ -33,6 +53,8 @@ std::vector<Case> cases() {
           {"drum", cylinder(0.5, kInfinite), [=](const Vec3& x) { return rho(x) <= 0.5; }},
           {"tube", tube(0.4, 0.7, 0.5),
            [=](const Vec3& x) { return rho(x) >= 0.4 && rho(x) <= 0.7 && std::abs(x.z()) <= 0.5; }},
+          {"prism", prism(),
+           [](const Vec3& x) { return x.cwiseAbs().maxCoeff() <= 0.5 && !(x.x() > 0.0 && x.y() > 0.0); }},
           {"bore", tube(0.4, kInfinite, kInfinite), [=](const Vec3& x) { return rho(x) >= 0.4; }}};
 }
 
@@ -129,6 +151,43 @@ TEST(Potentials, HaveTheirDerivatives) {
     EXPECT_EQ(potential(law, 0.1).slope, 0.0);
     EXPECT_EQ(potential(law, 0.2).value, 0.0);
   }
+}
+
+/// A tetrahedron, and what may be wrong with it.
+TEST(Shapes, RefuseMeshesThatEncloseNothing) {
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Triangles good{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const auto place_of = [](const std::vector<Vec3>& p, const Triangles& t) {
+    try {
+      mesh(p, t);
+    } catch (const InvalidInput& error) {
+      return error.place() + ": " + error.reason();
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(place_of(points, good), "accepted");
+  Triangles open(good.begin(), good.end() - 1), turned = good, out_of_range = good, inside_out;
+  std::swap(turned[2][0], turned[2][1]);
+  out_of_range[1][2] = 7;
+  for (const auto& [a, b, c] : good) inside_out.push_back({a, c, b});
+  EXPECT_EQ(place_of(points, open), "mesh.triangles[0]: an edge of no other triangle");
+  EXPECT_EQ(place_of(points, turned),
+            "mesh.triangles[2]: an edge that another triangle has in the same direction");
+  EXPECT_EQ(place_of(points, out_of_range), "mesh.triangles[1]: 7");
+  EXPECT_EQ(place_of(points, inside_out), "mesh.triangles: inside out");
+  EXPECT_EQ(place_of(points, {}), "mesh.triangles: none");
+  std::vector<Vec3> flat = points, lost = points, two = points;
+  flat[3] = Vec3(0.5, 0, 0);
+  lost[1].x() = std::nan("");
+  EXPECT_EQ(place_of(flat, good), "mesh.triangles[1]: three corners on a line");
+  EXPECT_EQ(place_of(lost, good), "mesh.points: not finite");
+  // Two that meet at a point.
+  Triangles both = good;
+  for (const Vec3& p : points) two.emplace_back(-p);
+  const auto mirrored = [](std::uint32_t i) { return i == 0 ? 0 : i + 4; };
+  for (const auto& [a, b, c] : inside_out) both.push_back({mirrored(a), mirrored(b), mirrored(c)});
+  EXPECT_EQ(place_of(two, both), "mesh.points[0]: two parts of the surface meet there");
 }
 
 }  // namespace

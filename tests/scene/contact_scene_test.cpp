@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tendril/base/file.h>
 #include <tendril/scene/scene_run.h>
 #include <tendril/scene/summary.h>
 
@@ -161,6 +162,38 @@ TEST(ContactScene, ABallMeetsTheMeshBesideItsRod) {
   ASSERT_LT(face, run.mesh()->mesh().face_count());
   EXPECT_GT(run.mesh()->mesh().points[run.mesh()->mesh().face(face)[2]].y(), 0.0);
   EXPECT_GT(run.snapshot().bodies[1].position.z(), 0.54);
+}
+
+/// A rod falls on a pyramid of a file, which a plate of the same height would hold up as high.
+TEST(ContactScene, ASolidMayBeAMesh) {
+  const std::string folder = testing::TempDir();
+  write_file_whole(folder + "/pyramid.off",
+                   "OFF 5 5 0\n-0.2 -0.2 0\n0.2 -0.2 0\n0.2 0.2 0\n-0.2 0.2 0\n0 0 0.3\n"
+                   "4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n");
+  Json json = scene();
+  json["bodies"] = {{{"name", "pyramid"},
+                     {"shape", {{"type", "mesh"}, {"file", "pyramid.off"}}},
+                     {"position", {0.6, 0.0, 0.2}}}};
+  json["simulation"]["duration"] = 0.5;
+  const auto read_here = [&] { return scene::parse_scene(json.dump(1), folder + "/scene.json"); };
+  scene::SceneRun run(read_here());
+  double least = 1.0;
+  bool touched = false;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    for (const scene::ContactPoint& c : now.contacts) {
+      touched = true;
+      least = std::min(least, c.gap);
+      EXPECT_NEAR(c.point.x(), 0.6, 0.1);
+    }
+  });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_TRUE(touched);
+  EXPECT_GT(least, 0.0);
+  json["bodies"][0]["free"] = {{"mass", 1.0}};
+  EXPECT_THROW(read_here(), InvalidInput);
+  json["bodies"][0].erase("free");
+  json["bodies"][0]["shape"]["file"] = "nothing.off";
+  EXPECT_THROW(read_here(), std::exception);
 }
 
 std::string refusal(const Json& json) {

@@ -62,6 +62,18 @@ void add_box(const Vec3& half, const scene::SolidPose& pose, bind::PolygonMesh& 
   }
 }
 
+void add_mesh(const bind::PolygonMesh& mesh, const scene::SolidPose& pose, bind::PolygonMesh& to) {
+  const auto first = static_cast<std::uint32_t>(to.points.size());
+  for (const Vec3& p : mesh.points) {
+    to.points.push_back(pose.position + pose.rotation * p);
+    to.point_colors.push_back(kSolid);
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t corner : mesh.face(f)) to.corners.push_back(first + corner);
+    to.face_begin.push_back(static_cast<std::uint32_t>(to.corners.size()));
+  }
+}
+
 void add_ground(const scene::SolidPose& pose, const Vec3& centre, double size, bind::PolygonMesh& to) {
   const Vec3 up = pose.rotation.col(2);
   scene::SolidPose at = pose;
@@ -79,6 +91,8 @@ void add_solid(const scene::SolidShape& shape, const scene::SolidPose& pose, con
       return add_ground(pose, centre, size, to);
     case Type::box:
       return add_box(shape.size, pose, to);
+    case Type::mesh:
+      return add_mesh(*shape.mesh, pose, to);
     case Type::ball:
     case Type::capsule:
       return add_rings(capsule_rings(r, h), pose, to);
@@ -91,6 +105,11 @@ void add_solid(const scene::SolidShape& shape, const scene::SolidPose& pose, con
 
 std::vector<Vec3> reach_of(const scene::SolidShape& shape, const scene::SolidPose& pose) {
   if (shape.type == Type::half_space) return {};
+  if (shape.type == Type::mesh) {
+    std::vector<Vec3> points;
+    for (const Vec3& p : shape.mesh->points) points.push_back(pose.position + pose.rotation * p);
+    return points;
+  }
   const double along =
       shape.half + (shape.type == Type::ball || shape.type == Type::capsule ? shape.radius : 0.0);
   const Vec3 half = shape.type == Type::box ? shape.size : Vec3(shape.radius, shape.radius, along);

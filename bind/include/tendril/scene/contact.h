@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tendril/base/types.h>
+#include <tendril/bind/polygon_mesh.h>
 #include <tendril/dynamics/anchor.h>
 #include <tendril/dynamics/rod_points.h>
 
@@ -15,12 +16,13 @@ namespace tendril::scene {
 /// The shape of a solid in its own frame, as the file has it.
 struct SolidShape {
   /// half_space z <= 0; the others about the origin, those with an axis about z.
-  enum class Type { half_space, ball, capsule, box, cylinder, tube };
+  enum class Type { half_space, ball, capsule, box, cylinder, tube, mesh };
   Type type = Type::ball;    ///< which of them
   double radius = 0.0;       ///< of a ball, a capsule, a cylinder; outside of a tube
   double inner = 0.0;        ///< radius, of a tube
   double half = 0.0;         ///< length of a capsule's line, a cylinder or a tube, over 2
   Vec3 size = Vec3::Zero();  ///< half the edges of a box
+  std::shared_ptr<const bind::PolygonMesh> mesh = {};  ///< the surface of a mesh; else null
 };
 
 /// A solid of the scene: fixed, driven or free.

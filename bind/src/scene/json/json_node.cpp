@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace tendril::scene {
@@ -138,6 +139,11 @@ long JsonNode::integer(long least, long most) const {
     refuse(quote(*value_) + " is out of range", range);
   }
   return static_cast<long>(x);
+}
+
+std::string JsonNode::path() const {
+  if (text().empty()) refuse("an empty path", "the path of a file");
+  return (std::filesystem::path(file_).parent_path() / text()).lexically_normal().string();
 }
 
 std::string JsonNode::text() const {

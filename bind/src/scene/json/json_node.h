@@ -41,6 +41,7 @@ class JsonNode {
   double not_negative() const;
   long integer(long least, long most) const;
   std::string text() const;
+  std::string path() const;  ///< a text, not empty, as a path relative to the file
   Vec3 vec3() const;
   std::vector<Vec3> points() const;
   std::vector<double> numbers() const;

@@ -1,6 +1,7 @@
 #include "scene/read/contact_reader.h"
 
 #include "scene/read/anchor_reader.h"
+#include "scene/solid/solid_reader.h"
 
 #include <tendril/contact/body_contact.h>
 #include <tendril/contact/rod_contact.h>
@@ -20,82 +21,6 @@ using Type = SolidShape::Type;
 
 constexpr double kRangeOfRadius = 0.1;  // the default range over the least radius
 constexpr double kCarries = 0.1;        // of an energy, by a barrier: kappa w range^2
-
-const std::map<std::string, std::pair<Type, std::vector<std::string>>>& shape_types() {
-  static const std::map<std::string, std::pair<Type, std::vector<std::string>>> types{
-      {"half_space", {Type::half_space, {}}},
-      {"ball", {Type::ball, {"radius"}}},
-      {"capsule", {Type::capsule, {"radius", "length"}}},
-      {"box", {Type::box, {"size"}}},
-      {"cylinder", {Type::cylinder, {"radius", "length"}}},
-      {"tube", {Type::tube, {"inner", "radius", "length"}}}};
-  return types;
-}
-
-contact::ShapePtr make_shape(const SolidShape& shape) {
-  switch (shape.type) {
-    case Type::half_space:
-      return contact::half_space();
-    case Type::ball:
-      return contact::ball(shape.radius);
-    case Type::capsule:
-      return contact::capsule(shape.half, shape.radius);
-    case Type::box:
-      return contact::box(shape.size);
-    case Type::cylinder:
-      return contact::cylinder(shape.radius, shape.half);
-    case Type::tube:
-      return contact::tube(shape.inner, shape.radius, shape.half);
-  }
-  return nullptr;
-}
-
-/// The schema knows the keys of all types together; which of them belong to this one is asked here, and the
-/// library refuses sizes that are none.
-SolidShape read_shape(const JsonNode& node) {
-  const auto& [type, keys] = shape_types().at(node.at("type").text());
-  for (const auto& item : node.value().items())
-    if (item.key() != "type" && std::find(keys.begin(), keys.end(), item.key()) == keys.end())
-      node.at(item.key()).refuse("not a key of this shape", "what belongs to its type");
-  SolidShape shape;
-  shape.type = type;
-  for (const std::string& key : keys) node.at(key);
-  if (node.has("radius")) shape.radius = node.at("radius").positive();
-  if (node.has("inner")) shape.inner = node.at("inner").positive();
-  if (node.has("length")) shape.half = 0.5 * node.at("length").positive();
-  if (node.has("size")) shape.size = 0.5 * node.at("size").vec3();
-  node.locate([&] { return make_shape(shape); });
-  return shape;
-}
-
-/// Principal moments of a body of uniform density and mass 1.
-Vec3 moments(const SolidShape& shape) {
-  const double r2 = shape.radius * shape.radius, h2 = shape.half * shape.half;
-  const auto round = [](double about_axis, double across) { return Vec3(across, across, about_axis); };
-  switch (shape.type) {
-    case Type::box: {
-      const Vec3 s = shape.size.cwiseProduct(shape.size) / 3.0;
-      return {s.y() + s.z(), s.z() + s.x(), s.x() + s.y()};
-    }
-    case Type::cylinder:
-      return round(r2 / 2, r2 / 4 + h2 / 3);
-    case Type::tube: {
-      const double both = r2 + shape.inner * shape.inner;
-      return round(both / 2, both / 4 + h2 / 3);
-    }
-    case Type::capsule: {
-      // A cylinder and two half balls, by their volumes.
-      const double body = 2.0 * shape.half, ends = 4.0 / 3.0 * shape.radius;
-      const double c = body / (body + ends), e = 1.0 - c;
-      const double offset = shape.half * shape.half + 0.75 * shape.half * shape.radius;
-      return round(c * r2 / 2 + e * 0.4 * r2, c * (r2 / 4 + h2 / 3) + e * (0.4 * r2 + offset));
-    }
-    case Type::ball:
-    case Type::half_space:
-      break;
-  }
-  return Vec3::Constant(0.4 * r2);
-}
 
 Mat3 rotation_of(const Frame& frame) {
   Mat3 m;
@@ -120,6 +45,8 @@ Body read_free(const JsonNode& node, const SceneBody& body) {
   Body out;
   out.mass = node.at("mass").positive();
   if (body.shape.type == Type::half_space) node.refuse("a half space", "a body of finite size");
+  if (body.shape.type == Type::mesh)
+    node.refuse("a mesh", "a fixed or driven one; ball, capsule, box, cylinder, tube");
   out.inertia = (out.mass * moments(body.shape)).asDiagonal();
   out.position = body.pose.position;
   out.rotation = rotation_of(body.pose.frame);

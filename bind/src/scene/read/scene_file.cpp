@@ -10,7 +10,6 @@
 #include <tendril/scene/scene_file.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 namespace tendril::scene {
@@ -87,16 +86,8 @@ void read_forces(const JsonNode& list, SceneFile& out) {
   }
 }
 
-std::string beside(const std::string& scene, const std::string& relative) {
-  return (std::filesystem::path(scene).parent_path() / relative).lexically_normal().string();
-}
-
 void read_mesh_name(const JsonNode& file, SceneFile& out) {
-  if (file.has("mesh")) {
-    const std::string name = file.at("mesh").text();
-    if (name.empty()) file.at("mesh").refuse("an empty path", "the path of a mesh, or null");
-    out.mesh = beside(out.path, name);
-  }
+  if (file.has("mesh")) out.mesh = file.at("mesh").path();
 }
 
 /// The curve-pairs named; or else the first and all that are joined to it, one way or another.

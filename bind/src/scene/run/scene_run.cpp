@@ -39,14 +39,14 @@ std::vector<std::size_t> let_meet(const BoundMesh& mesh, SceneFile& file) {
   const bind::PolygonMesh& at_rest = mesh.mesh();
   std::vector<bool> still(at_rest.points.size(), false);
   for (const std::size_t i : mesh.out_of_reach()) still[i] = true;
+  std::vector<std::size_t> all_faces;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (std::size_t f = 0; f < at_rest.face_count(); ++f) {
-    const auto face = at_rest.face(f);
-    if (std::any_of(face.begin(), face.end(), [&](std::uint32_t corner) { return still[corner]; })) continue;
-    for (std::size_t i = 2; i < face.size(); ++i) {
-      triangles.push_back({face[0], face[i - 1], face[i]});
-      face_of.push_back(f);
-    }
+  const auto all = bind::fan_triangles(at_rest, &all_faces);
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    if (std::any_of(all[t].begin(), all[t].end(), [&](std::uint32_t corner) { return still[corner]; }))
+      continue;
+    triangles.push_back(all[t]);
+    face_of.push_back(all_faces[t]);
   }
   try {
     auto points = std::make_shared<RodPoints>(
