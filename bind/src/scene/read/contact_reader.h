@@ -10,6 +10,9 @@ namespace tendril::scene {
 /// \param file  the whole scene, its rods and forces read
 void read_contact(const JsonNode& file, SceneFile& out);
 
+/// As make_system, whether or not the contact of the mesh is there yet (scene_file.cpp).
+System make_bare_system(const SceneFile& file);
+
 /// Where rods are in contact with bodies at an accepted state of the scene.
 std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state);
 /// And the mesh; faces are triangles of MeshContact still.

@@ -185,11 +185,7 @@ SceneError in_scene(const SceneFile& file, const InvalidInput& error) {
   return {{file.path, pointer, line_of(file.text, pointer)}, reason, error.expected()};
 }
 
-System make_system(const SceneFile& file) {
-  if (file.make_mesh_contact && !file.mesh_contact)
-    throw SceneError({file.path, file.mesh_contact_place, line_of(file.text, file.mesh_contact_place)},
-                     "contact of a mesh that is not bound",
-                     "a run of a scene with a mesh; or contact of rods");
+System make_bare_system(const SceneFile& file) {
   try {
     System system(file.scene);
     const State rest = system.rest_state();
@@ -197,6 +193,14 @@ System make_system(const SceneFile& file) {
   } catch (const InvalidInput& error) {
     throw in_scene(file, error);
   }
+}
+
+System make_system(const SceneFile& file) {
+  if (file.make_mesh_contact && !file.mesh_contact)
+    throw SceneError({file.path, file.mesh_contact_place, line_of(file.text, file.mesh_contact_place)},
+                     "contact of a mesh that is not bound",
+                     "a run of a scene with a mesh; or contact of rods");
+  return make_bare_system(file);
 }
 
 }  // namespace tendril::scene

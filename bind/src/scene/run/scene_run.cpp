@@ -96,6 +96,7 @@ struct SceneRun::Implementation : Follower {
 
   std::optional<BoundMesh> bind_mesh(bind::PolygonMesh surface, const RunOptions& options) {
     if (surface.points.empty()) return {};
+    make_bare_system(file);  // what is wrong with the scene is said before the mesh is bound to it
     const Stopwatch watch(seconds.bind);
     return BoundMesh(file, std::move(surface), options.mode, threads);
   }
