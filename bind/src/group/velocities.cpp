@@ -61,7 +61,10 @@ void Binding::velocities(std::span<const CurvePair> posed, std::span<const Curve
   pieces.reserve(layout.spans.size());
   for (const Span& span : layout.spans) pieces.push_back(moving_piece(span, posed, rates));
   const auto one = [&](const Order& order, const Records<double>& records, std::size_t slot) {
-    return velocity_of(pieces[order.run_of(slot).span], records.from(slot));
+    const MovingPiece& piece = pieces[order.run_of(slot).span];
+    double u, v;
+    const RecordsView<double> given = records.from(slot);
+    return velocity_of(piece, piece.at.turned ? turn_records(piece.at, given, 1, &u, &v) : given);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);

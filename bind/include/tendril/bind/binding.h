@@ -80,7 +80,8 @@ class TENDRIL_BIND_API Binding {
   void at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points, MutablePoints out) const;
 
   /// How fast some points move where control points of `posed` move as those of `rates`, on the same knots,
-  /// say. A point without a frame (see pull_back) moves as the curve's point. InvalidInput as for update.
+  /// say, and its turn stays. A point without a frame (see pull_back) moves as the curve's point.
+  /// InvalidInput as for update.
   void velocities(std::span<const CurvePair> posed, std::span<const CurvePair> rates,
                   std::span<const std::uint32_t> points, MutablePoints out) const;
 
