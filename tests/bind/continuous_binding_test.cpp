@@ -89,6 +89,20 @@ TEST(ContinuousBinding, IsNearestToTheLastBitWhereThatIsUnambiguous) {
   EXPECT_LT(same, a.size());
 }
 
+/// A point on the axis has its nearest point where it is: differences of rounding are no other branch.
+TEST(ContinuousBinding, IsNearestForPointsOnTheAxisItself) {
+  std::vector<Vec3> axis, side, line;
+  for (int i = 0; i <= 4; ++i) {
+    axis.emplace_back(i, 0, 0);
+    side.emplace_back(i, 1, 0);
+  }
+  const Interpolator fit(3, axis);
+  for (int i = 0; i <= 288; ++i) line.emplace_back(i / 72.0, i % 2 == 0 ? 0.0 : 0.1, 0.0);
+  const Binding binding(std::vector{CurvePair(fit.knots(), fit.solve(axis), fit.solve(side))}, strip(line),
+                        continuous());
+  EXPECT_TRUE(binding.report().ambiguous.empty()) << binding.report().ambiguous.size();
+}
+
 TEST(ContinuousBinding, GivesTheSameBitsForAnyThreadsAndForOnePoint) {
   const PolygonMesh mesh = tube(50, 30);
   const test::RestAndPose pair = test::tear_pose(test::tear_axes(mesh.points)[4].rest, 4);

@@ -10,6 +10,7 @@ namespace {
 constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 16;
 constexpr double kSamplesPerSide = 12.0;  ///< on either side of a minimum on a straight line
 constexpr double kFaint = 1e-3;           ///< weight that fades to nothing
+constexpr double kRounding = 1e-9;        ///< of places, over the scale, at most
 
 /// 1 up to `from`, 0 from `to` on, with a continuous derivative.
 double fall(double x, double from, double to) {
@@ -213,11 +214,13 @@ double SoftAxis::cut_margin(const Site& site) const {
   const Candidate& nearest = site.nearest();
   const double distance2 = (site.p - nearest.at.point).squaredNorm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
+  const double least_apart = kRounding * site.scale, least_apart2 = least_apart * least_apart;
   double margin = std::min(nearest.at.strength / band_, flatness(site));
   const auto consider = [&](std::uint32_t pair, double length, const Vec3& point) {
     const double factor = site.factors[pair], apart2 = (point - nearest.at.point).squaredNorm();
-    // Too near to the nearest point to differ from it: there the term tends to lambda, which is counted.
-    if (!(apart2 > 1e-6 * distance2)) return;
+    // Too near to the nearest point to differ from it: there the term tends to lambda, which is counted. Of a
+    // mesh's point on the axis both are rounding.
+    if (!(apart2 > std::max(1e-6 * distance2, least_apart2))) return;
     const double apart = std::sqrt(apart2), branches = std::max(1.0, 2.0 * site.scale / apart);
     const double excess = factor * factor * (point - site.p).squaredNorm() - distance2;
     if (excess >= margin * band_ * branches * apart2) return;
@@ -252,7 +255,7 @@ bool SoftAxis::may_be_ambiguous(const Site& site) const {
         away = std::max(distance, site.factors[pair] * (away - curve.spacing));
       }
       const double branches = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
-      if (own && !(apart > 1e-3 * distance)) continue;
+      if (own && !(apart > std::max(1e-3 * distance, kRounding * site.scale))) continue;
       if ((away - distance) * (away + distance) < band_ * branches * apart * apart) return true;
     }
   }
