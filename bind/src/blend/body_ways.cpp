@@ -21,7 +21,8 @@ Vec3 middle_of(const std::array<int, 3>& c) {
 
 }  // namespace
 
-/// The nearest voxel that a surface meets, the first of those as near.
+/// The nearest voxel that a surface meets, the first of those as near. Shell by shell, only their outermost
+/// layer being looked at; a shell of radius r holds nothing nearer than r - 1, which ends the search.
 BodyGrid::Cell BodyGrid::nearest_surface(const Vec3& p) const {
   const Cell here = cell_of(p);
   const int most = *std::max_element(count_.begin(), count_.end());
@@ -58,6 +59,9 @@ std::vector<Vec3> BodyGrid::samples(const BSpline& curve) const {
   return out;
 }
 
+/// A lot that a curve runs in is body whatever its faces say. Of the others, what lies clearly on the other
+/// side of the faces than the lot with most of the curves is a gap; where faces are turned anyhow the side
+/// is a mean near 0, nothing is clear, and all stays body.
 void BodyGrid::empty_pockets(std::span<const BSpline* const> curves) {
   std::vector<std::uint32_t> lot(state_.size(), 0);
   std::vector<Lot> lots(1);
@@ -113,6 +117,8 @@ void BodyGrid::fill_about(const BSpline& curve) {
   }
 }
 
+/// Within a layer of voxels at the border of the grid nothing is filled: ways are looked for without asking
+/// whether a voxel has a neighbour.
 void BodyGrid::fill_ball(const Cell& c) {
   const Vec3 centre = corner_of(c);
   const Cell nearest = nearest_surface(centre + Vec3::Constant(0.5));
@@ -140,6 +146,8 @@ std::uint32_t BodyGrid::piece_before(std::uint32_t cell, const Vec3& p) const {
   return best;
 }
 
+/// Voxels and pieces are nodes of one graph. A way comes into a voxel of the surface by the piece that it
+/// meets from behind, and leaves it by the same piece: so it does not pass through a sheet, however thin.
 std::vector<float> BodyGrid::ways_from(const BSpline& curve) const {
   const auto cells = static_cast<std::uint32_t>(state_.size());  // pieces are numbered behind them
   std::vector<float> way(state_.size() + piece_cell_.size(), kFar);

@@ -37,7 +37,8 @@ void for_triangles(const PolygonMesh& mesh, const Each& each) {
 }
 
 /// Singular values of the map from one pair of edges to the other, the larger first: the roots of the
-/// eigenvalues of G^-1 G', the Gram matrices of the edges.
+/// eigenvalues of G^-1 G', the Gram matrices of the edges. The smaller one comes from the product, which is
+/// the ratio of areas: the difference of two near equal numbers would lose it where a triangle is crushed.
 std::array<double, 2> singular_values(const Edges& rest, const Edges& posed) {
   const double e = rest.a.squaredNorm(), f = rest.a.dot(rest.b), g = rest.b.squaredNorm();
   const double e2 = posed.a.squaredNorm(), f2 = posed.a.dot(posed.b), g2 = posed.b.squaredNorm();
@@ -47,7 +48,9 @@ std::array<double, 2> singular_values(const Edges& rest, const Edges& posed) {
   return {most, most > 0.0 ? product / most : 0.0};
 }
 
-/// v as the frame of the point's nearest projection takes it from rest to the pose.
+/// v as the frame of the point's nearest projection takes it from rest to the pose. A fold is told against
+/// that, not against the normal at rest: a limb that is turned by 180 degrees has turned normals and no
+/// folds.
 class Carrier {
  public:
   Carrier(const Binding& binding, std::span<const CurvePair> rest, std::span<const CurvePair> posed)
@@ -71,7 +74,7 @@ struct Spoilt {
   double area;
 };
 
-/// Zones of triangles that share points.
+/// Zones of triangles that share points, by points and not by edges: a zone that is thin in places stays one.
 std::vector<SpoiltZone> zones_of(Points points, const std::vector<Spoilt>& spoilt, double area) {
   DisjointSets sets(points.size());
   for (const Spoilt& t : spoilt)

@@ -34,7 +34,8 @@ void check(const ContactSurface& surface) {
         throw InvalidInput(place_of(i), std::to_string(corner), "below " + std::to_string(count));
 }
 
-/// The spans that vertices are bound to, numbered as they turn up.
+/// The spans that vertices are bound to, numbered as they turn up; each keeps how far off the curve what it
+/// carries reaches, since a turn of its frames moves that by as much times the angle.
 class SpanList {
  public:
   SpanList(const RodPoints& points, std::vector<UsedSpan>& spans) : points_(points), spans_(spans) {
@@ -64,7 +65,9 @@ class SpanList {
   std::vector<BoundShare> shares_;
 };
 
-/// Triangles by the set of spans that their corners depend on.
+/// Triangles by the set of spans that their corners depend on: one bound on the motion of these spans then
+/// holds for all of a patch. Finer patches would share that bound, and gain nothing by it. An ordered map, so
+/// that the order of points, and with it that of sums, is the same on every machine.
 std::map<std::vector<std::uint32_t>, std::vector<std::uint32_t>> group(const ContactSurface& surface,
                                                                        std::vector<UsedSpan>& spans) {
   SpanList list(*surface.points, spans);
