@@ -119,7 +119,8 @@ BodyGrid::Cell BodyGrid::cell_of(const Vec3& p) const {
   return out;
 }
 
-/// Enters the voxels [low, high) that a triangle meets, halving the block of them.
+/// Enters the voxels [low, high) that a triangle meets, halving the block of them: a large triangle meets few
+/// of the voxels in its box, and whole blocks fall to one test.
 void BodyGrid::rasterise(const std::array<Vec3, 3>& triangle, const Cell& low, const Cell& high,
                          const Entry& entry) {
   const Vec3 from(low[0], low[1], low[2]), to(high[0], high[1], high[2]);
@@ -165,7 +166,10 @@ void BodyGrid::enter_faces(const PolygonMesh& mesh) {
   first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
 }
 
-/// In each voxel, triangles that share an edge or a corner that is there are one piece.
+/// In each voxel, triangles that share an edge or a corner that is there are one piece. What they share
+/// elsewhere does not count: two fingers share a palm, and a voxel between their tips has a piece of each.
+/// Features are taken to be there by a little more than the voxel, since one that lies in its face may be
+/// rounded out of both.
 void BodyGrid::split_into_pieces(const PolygonMesh& mesh) {
   std::vector<std::uint32_t> order(entries_.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -178,6 +182,8 @@ void BodyGrid::split_into_pieces(const PolygonMesh& mesh) {
   };
   std::vector<Feature> features;
   const Vec3 half = Vec3::Constant(0.5 + kTouch);
+  // A sort and a scan, voxel by voxel: the features of one voxel are few, a table of all would not fit the
+  // cache.
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     const std::uint32_t cell = entries_[order[begin]].cell;
     while (end < order.size() && entries_[order[end]].cell == cell) ++end;
@@ -220,14 +226,13 @@ void BodyGrid::find_centres(const PolygonMesh& mesh) {
   std::vector<double>& area = piece_area_;
   area.assign(piece_cell_.size(), 0.0);
   for (const Entry& entry : entries_) {
-    const auto& corners = triangles_[entry.triangle];
-    const Vec3 &a = mesh.points[corners[0]], &b = mesh.points[corners[1]], &c3 = mesh.points[corners[2]];
-    const Vec3 normal = (b - a).cross(c3 - a);
+    const auto& [i, j, k] = triangles_[entry.triangle];
+    const Vec3 &p = mesh.points[i], &q = mesh.points[j], &r = mesh.points[k];
+    const Vec3 normal = (q - p).cross(r - p);
     if (normal.norm() > 0.0) piece_normal_[entry.piece] += normal.normalized();
     const Cell c = cell_at(entry.cell);
-    const auto& t = triangles_[entry.triangle];
-    add_part({scaled(mesh.points[t[0]]), scaled(mesh.points[t[1]]), scaled(mesh.points[t[2]])},
-             Vec3(c[0], c[1], c[2]), piece_centre_[entry.piece], area[entry.piece]);
+    add_part({scaled(p), scaled(q), scaled(r)}, Vec3(c[0], c[1], c[2]), piece_centre_[entry.piece],
+             area[entry.piece]);
   }
   for (std::size_t p = 0; p < area.size(); ++p) {
     const Cell c = cell_at(piece_cell_[p]);
@@ -336,6 +341,9 @@ void BodyGrid::number_nodes() {
   joined_ = {};
 }
 
+/// By the face and not by p alone: of several sheets in a voxel only the face says which. A point on the
+/// border of voxels may be rounded into one that its face was not entered in; then the nearest of the
+/// face's is taken.
 GridPlace BodyGrid::place(const Vec3& p, std::uint32_t face) const {
   const Vec3 at = scaled(p);
   const std::uint32_t here = index(cell_of(at));
