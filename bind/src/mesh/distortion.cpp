@@ -30,10 +30,9 @@ struct Edges {
 /// Calls `each` with every triangle's face and corners.
 template <class Each>
 void for_triangles(const PolygonMesh& mesh, const Each& each) {
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k) each(f, Corners{face[0], face[k - 1], face[k]});
-  }
+  std::vector<std::size_t> face_of;
+  const std::vector<Corners> triangles = fan_triangles(mesh, &face_of);
+  for (std::size_t t = 0; t < triangles.size(); ++t) each(face_of[t], triangles[t]);
 }
 
 /// Singular values of the map from one pair of edges to the other, the larger first: the roots of the
