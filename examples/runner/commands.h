@@ -26,6 +26,7 @@ Command render_command(CLI::App& parent);
 Command accuracy_command(CLI::App& parent);
 Command collide_command(CLI::App& parent);
 Command repair_command(CLI::App& parent);
+Command rig_command(CLI::App& parent);
 Command report_command(CLI::App& parent);
 Command statics_command(CLI::App& parent);
 

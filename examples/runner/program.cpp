@@ -32,7 +32,7 @@ int run_program(int argc, const char* const* argv) {
                                       project_command(app), check_command(app),   bind_command(app),
                                       render_command(app),  repair_command(app),  report_command(app),
                                       statics_command(app), collide_command(app), accuracy_command(app),
-                                      pose_command(app)};
+                                      pose_command(app),    rig_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,8 @@
 #include "commands.h"
 #include "commands/mode.h"
 #include "read/mesh_reader.h"
+#include "rig/of_mesh.h"
+#include "vtk/series.h"
 #include "write/folder.h"
 #include "write/interrupt.h"
 #include "write/progress.h"
@@ -10,6 +12,9 @@
 #include <tendril/base/file.h>
 #include <tendril/scene/summary.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <iostream>
 
 namespace tendril::runner {
@@ -19,23 +24,44 @@ struct Options {
   std::string scene, out, mesh;
   int threads = 0;
   ModeFlags mode;
+  bool vtk = false;
   bool no_frames = false, no_pictures = false, double_precision = false, json = false;
 };
 
+bool is_mesh(const std::string& path) {
+  std::string type = std::filesystem::path(path).extension().string();
+  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  return type == ".off" || type == ".ply";
+}
+
+/// A mesh in place of a scene gets one, as `tendril rig` makes it, beside what the run writes.
+std::string scene_of_mesh(const Options& options) {
+  const std::string out = options.out + "/scene.json";
+  const Rig rig = rig_mesh(read_mesh(options.scene), options.scene, {}, {});
+  make_folder(options.out);
+  write_rig(rig, options.scene, out, "tendril run " + options.scene);
+  if (!options.json) tell(rig);
+  return out;
+}
+
 scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
-  scene::SceneFile file = scene::read_scene(options.scene);
+  scene::SceneFile file = scene::read_scene(is_mesh(options.scene) ? scene_of_mesh(options) : options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
   mesh = read_mesh(file);
   return file;
 }
 
-Report simulate(scene::SceneRun& scene, Recorder& recorder, Progress& progress) {
-  return scene.run([&](const scene::Snapshot& snapshot) { recorder.take(snapshot, scene.mesh()); },
-                   [&](double part) {
-                     progress.show("simulating", part);
-                     return !Interrupt::requested();
-                   });
+Report simulate(scene::SceneRun& scene, Recorder& recorder, VtkSeries* series, Progress& progress) {
+  return scene.run(
+      [&](const scene::Snapshot& snapshot) {
+        recorder.take(snapshot, scene.mesh());
+        if (series != nullptr) series->take(snapshot);
+      },
+      [&](double part) {
+        progress.show("simulating", part);
+        return !Interrupt::requested();
+      });
 }
 
 void draw_pictures(const scene::SceneRun& scene, Recorder& recorder, Report& report, int threads,
@@ -76,7 +102,10 @@ int run(const Options& options) {
 
   Progress progress;
   Recorder recorder(scene.file(), {options.out, !options.no_frames, options.double_precision}, phases);
-  Report report = simulate(scene, recorder, progress);
+  std::optional<VtkSeries> series;
+  if (options.vtk) series.emplace(scene, options.out);
+  Report report = simulate(scene, recorder, series ? &*series : nullptr, progress);
+  if (series) recorder.note(series->finish());
   recorder.write_trajectory();
   if (!options.no_pictures && recorder.taken() > 0 && report.stop != Stop::cancelled) {
     draw_pictures(scene, recorder, report, threads, phases, progress);
@@ -93,13 +122,17 @@ int run(const Options& options) {
 Command run_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("run", "Moves a scene's curve-pairs, and the mesh with them");
   const auto options = std::make_shared<Options>();
-  app->add_option("scene", options->scene, "scene file (JSON)")->required();
+  app->add_option("scene", options->scene,
+                  "scene file (JSON); or an OFF or PLY file, which `tendril rig` is asked for first")
+      ->required();
   app->add_option("--out", options->out, "folder for what the run writes; made when it is not there")
       ->required();
   app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
   options->mode.add_to(*app);
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
+  app->add_flag("--vtk", options->vtk,
+                "write a time series for ParaView too, run.pvd: mesh, rods and contacts with fields");
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");
   app->add_flag("--json", options->json, "print the summary as JSON");

@@ -35,6 +35,10 @@ class Recorder {
   /// And the tables of solids and contacts, where the scene has any.
   void write_trajectory();
   void write(const std::string& name, const std::string& bytes);
+  /// Files that another wrote into the folder.
+  void note(const std::vector<std::string>& files) {
+    files_.insert(files_.end(), files.begin(), files.end());
+  }
 
  private:
   void look(const scene::Snapshot& snapshot);

@@ -11,13 +11,20 @@
 
 namespace tendril::scene {
 
+/// Where a curve of a file starts.
+struct CurveJoint {
+  std::size_t parent;  ///< which of the file's curves, an earlier one
+  std::size_t node;    ///< of its points
+};
+
 /// A curve-pair as its file gives it.
 struct CurveFile {
-  CurvePair pair;                       ///< the curves, clamped on [0, 1] where they go through points
-  std::vector<Vec3> masses;             ///< the points of a chain; empty where the file gives control points
-  std::optional<Interpolator> through;  ///< what put the curves through them; nothing with control points
-  std::string place;                    ///< "file#/pointer", for messages
-  std::string name = {};                ///< as the file calls it; empty where it does not
+  CurvePair pair;                        ///< the curves, clamped on [0, 1] where they go through points
+  std::vector<Vec3> masses;              ///< the points of a chain; empty where the file gives control points
+  std::optional<Interpolator> through;   ///< what put the curves through them; nothing with control points
+  std::string place;                     ///< "file#/pointer", for messages
+  std::string name = {};                 ///< as the file calls it; empty where it does not
+  std::optional<CurveJoint> joint = {};  ///< none for a curve of its own
 };
 
 /// Reads a curve file: JSON with comments, held against curve.schema.json and then built. It gives either

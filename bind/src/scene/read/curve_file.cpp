@@ -6,6 +6,8 @@
 #include <tendril/dynamics/rod.h>
 #include <tendril/scene/curve_file.h>
 
+#include <algorithm>
+
 namespace tendril::scene {
 namespace {
 
@@ -55,6 +57,19 @@ CurveFile one_curve(const JsonNode& curve, const CurveFile* rest) {
   return out;
 }
 
+/// The place in a list of curves that a joint names: an earlier curve, and a point of it.
+CurveJoint read_joint(const JsonNode& joint, const std::vector<CurveFile>& before) {
+  const std::string name = joint.at("curve_pair").text();
+  const auto parent =
+      std::find_if(before.begin(), before.end(), [&](const CurveFile& c) { return c.name == name; });
+  if (parent == before.end()) joint.at("curve_pair").refuse("'" + name + "'", "the name of an earlier curve");
+  const auto node = static_cast<std::size_t>(joint.at("node").integer(0, 1L << 30));
+  if (node >= parent->masses.size())
+    joint.at("node").refuse(std::to_string(node), "one of the " + std::to_string(parent->masses.size()) +
+                                                      " points of '" + name + "', from 0");
+  return {static_cast<std::size_t>(parent - before.begin()), node};
+}
+
 Json curve_json(const std::string& text, const std::string& path) {
   Json json = parse_json(text, path);
   require_schema(json, kCurveSchema, path);
@@ -68,7 +83,10 @@ std::vector<CurveFile> several(const JsonNode& file, std::span<const CurveFile> 
   std::vector<CurveFile> out;
   for (std::size_t k = 0; k < count; ++k) {
     const CurveFile* at_rest = rest.empty() ? nullptr : &rest[k];
-    out.push_back(one_curve(file.has("curves") ? file.at("curves").at(k) : file, at_rest));
+    const JsonNode curve = file.has("curves") ? file.at("curves").at(k) : file;
+    CurveFile one = one_curve(curve, at_rest);
+    if (curve.has("joint")) one.joint = read_joint(curve.at("joint"), out);
+    out.push_back(std::move(one));
   }
   if (file.has("curves") && file.size() > 2)
     file.refuse("more than a list of curve-pairs", "no keys but 'version' and 'curves'");

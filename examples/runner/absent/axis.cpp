@@ -1,4 +1,7 @@
 #include "commands.h"
+#include "rig/of_mesh.h"
+
+#include <tendril/base/error.h>
 
 #include <iostream>
 
@@ -11,6 +14,11 @@ Command axis_command(CLI::App& parent) {
             std::cerr << "tendril: axis: this program was built without TENDRIL_AXIS\n";
             return static_cast<int>(kBadInput);
           }};
+}
+
+std::vector<RigCurve> find_curves(const bind::PolygonMesh&, const std::string& path, const RigAxes&) {
+  throw InvalidInput(path, "no axes: this program was built without TENDRIL_AXIS",
+                     "--axis with a curve file");
 }
 
 }  // namespace tendril::runner

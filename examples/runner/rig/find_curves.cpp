@@ -1,0 +1,34 @@
+#include "rig/of_mesh.h"
+
+#include <tendril/axis/find_axis.h>
+#include <tendril/base/error.h>
+
+namespace tendril::runner {
+
+std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path,
+                                  const RigAxes& how) {
+  axis::AxisOptions options;
+  options.close = how.close;
+  options.largest_part = how.largest_part;
+  options.spacing = how.spacing;
+  axis::AxisTree tree;
+  try {
+    tree = axis::find_axis(mesh, options);
+  } catch (const InvalidInput& error) {
+    if (error.place() != "mesh") throw;
+    throw InvalidInput(path, error.reason(), error.expected() + " (--close, --largest-part)");
+  }
+  if (tree.status != axis::AxisStatus::found)
+    throw InvalidInput(path,
+                       std::string("no axis found, ") + axis::to_string(tree.status) + ": " + tree.reason,
+                       "a mesh with limbs; --axis takes an axis drawn by hand");
+  std::vector<RigCurve> out;
+  for (axis::AxisCurve& curve : tree.curves) {
+    const std::string name = out.empty() ? "axis" : "branch_" + std::to_string(out.size());
+    out.push_back({name, std::move(curve.points), std::move(curve.orientation), std::move(curve.radius)});
+    if (curve.joint) out.back().joint = {curve.joint->parent, curve.joint->node};
+  }
+  return out;
+}
+
+}  // namespace tendril::runner

@@ -1,0 +1,111 @@
+#include "rig/stance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::runner {
+namespace {
+
+constexpr double kNearGround = 0.15, kOnGround = 0.05;  ///< of the height
+constexpr double kDownward = 0.5;                       ///< sine of the least angle below the horizon
+constexpr double kLeg = 0.3;                            ///< of the height: what of a limb says that it stands
+constexpr double kOneFoot = 0.12;                       ///< of the height: toes this near are of one foot
+
+std::vector<CurveEnd> ends_of(const std::vector<RigCurve>& curves) {
+  std::vector<CurveEnd> out;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (!curves[k].joint) out.push_back({k, false});
+    out.push_back({k, true});
+  }
+  return out;
+}
+
+double lowest_of(const std::vector<Vec3>& points, const Vec3& up) {
+  double low = INFINITY;
+  for (const Vec3& p : points) low = std::min(low, p.dot(up));
+  return low;
+}
+
+/// A point on the way from an end back into the body, `length` along the curves.
+Vec3 back_from(const std::vector<RigCurve>& curves, const CurveEnd& end, double length) {
+  if (!end.last) {
+    const std::vector<Vec3>& points = curves[end.curve].points;
+    std::size_t i = 0;
+    for (double way = 0.0; i + 1 < points.size() && way < length; ++i)
+      way += (points[i + 1] - points[i]).norm();
+    return points[i];
+  }
+  std::size_t curve = end.curve, i = curves[curve].points.size() - 1;
+  for (double way = 0.0; way < length;) {
+    if (i == 0) {
+      // A toe's way goes on up the leg, to where that begins.
+      const auto& joint = curves[curve].joint;
+      if (!joint) break;
+      curve = joint->parent, i = joint->node;
+      if (!curves[curve].joint) break;
+      continue;
+    }
+    way += (curves[curve].points[i] - curves[curve].points[i - 1]).norm();
+    --i;
+  }
+  return curves[curve].points[i];
+}
+
+const Vec3& tip_of(const std::vector<RigCurve>& curves, const CurveEnd& end) {
+  return end.last ? curves[end.curve].points.back() : curves[end.curve].points.front();
+}
+
+/// What is on the ground stands if the leg above it goes down, whichever way its toes point; what is only
+/// near it, a foot out of line or a tail, if its very end does.
+bool stands(const std::vector<RigCurve>& curves, const CurveEnd& end, double above, const Stance& stance) {
+  if (above > kNearGround * stance.height) return false;
+  const RigCurve& curve = curves[end.curve];
+  const std::size_t n = curve.points.size() - 1, two = std::min<std::size_t>(2, n);
+  const Vec3 from = above < kOnGround * stance.height ? back_from(curves, end, kLeg * stance.height)
+                                                      : curve.points[end.last ? n - two : two];
+  return (tip_of(curves, end) - from).normalized().dot(stance.up) < -kDownward;
+}
+
+/// Feet, those of toes once.
+std::size_t count_feet(const std::vector<RigCurve>& curves, const Stance& stance) {
+  std::vector<Vec3> found;
+  for (const CurveEnd& end : stance.feet) {
+    const Vec3& tip = tip_of(curves, end);
+    const bool toe = std::any_of(found.begin(), found.end(), [&](const Vec3& other) {
+      return (tip - other).norm() < kOneFoot * stance.height;
+    });
+    if (!toe) found.push_back(tip);
+  }
+  return found.size();
+}
+
+}  // namespace
+
+Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body,
+             const Vec3& up) {
+  const double ground = lowest_of(mesh.points, up);
+  Stance out{up, {}, {0, true}, -lowest_of(mesh.points, -up) - ground, ground};
+  double lowest = INFINITY;
+  for (const CurveEnd& end : ends_of(curves)) {
+    const std::vector<Vec3>& skin = (end.last ? body.last_skin : body.first_skin)[end.curve];
+    const double low = skin.empty() ? tip_of(curves, end).dot(up) : lowest_of(skin, up);
+    if (low < lowest) lowest = low, out.lowest = end;
+    if (stands(curves, end, low - ground, out)) out.feet.push_back(end);
+  }
+  return out;
+}
+
+Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body) {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const std::pair<Vec3, double> choices[]{{y, 1.5}, {z, 1.0}, {x, 0.0}, {-y, 0.0}, {-z, 0.0}, {-x, 0.0}};
+  Stance best;
+  double most = -1.0;
+  for (const auto& [up, bonus] : choices) {
+    Stance stance = stand(mesh, curves, body, up);
+    const double count = static_cast<double>(count_feet(curves, stance)) + bonus;
+    if (count > most) most = count, best = std::move(stance);
+  }
+  return best;
+}
+
+}  // namespace tendril::runner

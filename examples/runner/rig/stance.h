@@ -1,0 +1,32 @@
+#pragma once
+
+#include "rig/sections.h"
+
+namespace tendril::runner {
+
+/// An end of a curve that is joined to nothing.
+struct CurveEnd {
+  std::size_t curve;
+  bool last;  ///< its last node; else its first
+};
+
+/// How a body stands.
+struct Stance {
+  Vec3 up = Vec3::UnitY();     ///< unit
+  std::vector<CurveEnd> feet;  ///< ends that point down and whose skin is near the lowest
+  CurveEnd lowest{};           ///< whose skin is the lowest
+  double height = 0.0;         ///< of the mesh along `up`
+  double ground = 0.0;         ///< coordinate of its lowest point along `up`
+};
+
+/// How the body stands where `up` is up. A foot's skin comes within 5 % of the height to the lowest point,
+/// and the limb, up to 30 % of the height from its end, goes down by more than 30 degrees; or within 15 %,
+/// and its last two edges do.
+Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body,
+             const Vec3& up);
+
+/// The direction among x, y, z and their opposites in which the most feet are below; y counts one and a half
+/// feet more than it has, z one, as most meshes have one of these up.
+Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body);
+
+}  // namespace tendril::runner
