@@ -42,5 +42,23 @@ TEST(StiffSolver, HasTheExactJacobian) {
     for (const double s : {1.0, 100.0}) EXPECT_LT(residual(viscosity, s), 3e-5) << viscosity << ' ' << s;
 }
 
+TEST(StiffSolver, SaysWhereAndWhyItFails) {
+  // The third node comes back on the first: opposite edges at node 1.
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(4, 1e5, 0.02));
+  const System system(scene);
+  const auto work = system.make_workspace();
+  State state = system.rest_state();
+  Eigen::VectorXd rate;
+  ASSERT_TRUE(system.derivative(state, 0.0, state.y, rate, *work).ok());
+  const auto solver = make_stiff_solver(system, *work);
+  ASSERT_GT(solver->differentiate(state, rate), 0);
+  EXPECT_TRUE(solver->failure().ok());
+  for (Eigen::Index k = 0; k < 3; ++k) state.y[6 + k] = state.y[k];
+  EXPECT_LT(solver->differentiate(state, rate), 0);
+  EXPECT_EQ(solver->failure().outcome, Evaluation::Outcome::fold_back);
+  EXPECT_EQ(solver->failure().node, 1U);
+}
+
 }  // namespace
 }  // namespace tendril

@@ -31,10 +31,10 @@ class Differences {
       for (const RigidBody& body : model.bodies) length_ = std::max(length_, body.size);
   }
 
-  /// Adds to the two matrices; returns the evaluations it took, negative when one failed.
-  long add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
-    long evaluations = 1;
-    if (!undifferentiated_loads(model_, state, state.y, base_, work).ok()) return -1;
+  /// Adds to the two matrices.
+  Evaluation add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
+    cost_ = 1;
+    if (const Evaluation e = undifferentiated_loads(model_, state, state.y, base_, work); !e.ok()) return e;
     double speed = length_;
     for (std::size_t i = 0; i < model_.index_count(); ++i)
       if (!is_turn(i))
@@ -53,15 +53,17 @@ class Differences {
           if (place >= 0) moved_[place] += step_of(i, kind);
         }
         if (!any) continue;
-        ++evaluations;
-        if (!undifferentiated_loads(model_, state, moved_, dy_, work).ok()) return -1;
+        ++cost_;
+        if (const Evaluation e = undifferentiated_loads(model_, state, moved_, dy_, work); !e.ok()) return e;
         dy_ -= base_;
         for (const std::size_t i : nodes)
           if (offset_of(i, kind) >= 0)
             take(i, kind, step_of(i, kind), kind < 3 || kind == kAngle ? by_x : by_u);
       }
-    return evaluations;
+    return {};
   }
+  /// Evaluations that the last add() took.
+  long cost() const { return cost_; }
 
  private:
   /// Greedily, in the order of the nodes: the least colour that no node two couplings away has.
@@ -113,6 +115,7 @@ class Differences {
   std::vector<std::vector<std::size_t>> neighbours_;  ///< per node, itself first
   std::vector<std::vector<std::size_t>> coloured_;    ///< nodes of each colour
   Eigen::VectorXd base_, dy_, moved_;
+  long cost_ = 0;
 };
 
 }  // namespace tendril

@@ -56,7 +56,7 @@ struct Rodas::Implementation {
         return ok;
     }
     const long cost = solver->differentiate(state, rate);
-    if (cost < 0) return {Evaluation::Outcome::not_finite, 0};
+    if (cost < 0) return solver->failure();
     evaluations += cost;
     known = true;
     return {};

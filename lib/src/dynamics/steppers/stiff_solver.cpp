@@ -113,20 +113,20 @@ class BlockSolver : public StiffSolver {
     to_x_.restart();
     if (to_u_) to_u_->restart();
     double energy = 0.0;
-    if (!system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_).ok()) return -1;
+    if (fails(system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_))) return -1;
     const bool viscous = turning_.has_value();
-    if (viscous && !add_viscous_gradient(state)) return -1;
+    if (viscous && fails(add_viscous_gradient(state))) return -1;
     visit_stiffness(model_, state, work_.kinematics, work_.gradient, viscous, -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
       if (viscous) visit_resistance(model_, work_.kinematics, *to_u_);
       // The rates of the frames are needed from here on.
-      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
+      if (fails(kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics))) return -1;
       add_turning();
-      if (turning_ && !turning_->add(state, rate, work_.kinematics, to_x_)) return -1;
+      if (turning_ && fails(turning_->add(state, rate, work_.kinematics, to_x_))) return -1;
     }
     if (loaded_ || !model_.bodies.empty()) {
-      if (!kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics).ok()) return -1;
+      if (fails(kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics))) return -1;
       if (by_u_) rigid_.add(work_.kinematics.bodies, rate, by_x_, *by_u_);
     }
     if (loaded_) {
@@ -139,15 +139,14 @@ class BlockSolver : public StiffSolver {
       }
     }
     if (differences_) {
-      const long cost = differences_->add(state, work_, by_x_, *by_u_);
-      if (cost < 0) return -1;
-      evaluations += cost;
+      if (fails(differences_->add(state, work_, by_x_, *by_u_))) return -1;
+      evaluations += differences_->cost();
     }
     for (const Held& held : held_) {
       by_x_.release(held.node, held.coordinate);
       if (by_u_) by_u_->release(held.node, held.coordinate);
     }
-    if (timed_ && !take_time(state, rate)) return -1;
+    if (timed_ && fails(take_time(state, rate))) return -1;
     return evaluations + (timed_ ? 1 : 0);
   }
 
@@ -236,11 +235,11 @@ class BlockSolver : public StiffSolver {
     damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
   }
 
-  bool take_time(const State& state, const Eigen::VectorXd& rate) {
+  Evaluation take_time(const State& state, const Eigen::VectorXd& rate) {
     const double step = 1e-7 * std::max(1e-3, std::abs(state.time));
-    if (!system_.derivative(state, state.time + step, state.y, by_time_, work_).ok()) return false;
-    by_time_ = (by_time_ - rate) / step;
-    return true;
+    const Evaluation at = system_.derivative(state, state.time + step, state.y, by_time_, work_);
+    if (at.ok()) by_time_ = (by_time_ - rate) / step;
+    return at;
   }
 
   /// Nodes before, at and after i, by what carries them.
@@ -289,16 +288,19 @@ class BlockSolver : public StiffSolver {
   }
 
   /// After it the workspace holds the gradient with its viscous part, and the rates.
-  bool add_viscous_gradient(const State& state) {
+  Evaluation add_viscous_gradient(const State& state) {
     double heat = 0.0;
     auto& [kin, grad, loads, pull] = work_;
-    if (!kinematics(model_, state, state.time, state.y, Motion::all, kin).ok()) return false;
-    if (!elastic(model_, state, {.viscous = true, .gyroscopic = false}, kin, grad, heat).ok()) return false;
+    if (const Evaluation e = kinematics(model_, state, state.time, state.y, Motion::all, kin); !e.ok())
+      return e;
+    if (const Evaluation e = elastic(model_, state, {.viscous = true, .gyroscopic = false}, kin, grad, heat);
+        !e.ok())
+      return e;
     no_loads(kin, loads);
     pull_back(model_, kin, grad, loads, pull);
     for (std::size_t i = 0; i < model_.nodes; ++i)
       if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = grad.spin[i];
-    return true;
+    return {};
   }
 
   /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle

@@ -27,8 +27,9 @@ class StiffSolver {
   /// Takes the Jacobian at a state.
   /// \param rate  y' there
   /// \return  the number of evaluations of the equations (or of parts of them) it cost, negative when one
-  ///          failed
+  ///          failed, as failure() says
   virtual long differentiate(const State& state, const Eigen::VectorXd& rate) = 0;
+  const Evaluation& failure() const { return failure_; }
 
   /// False when elimination breaks down.
   virtual bool factor(double s) = 0;
@@ -40,7 +41,16 @@ class StiffSolver {
   const Eigen::VectorXd& by_time() const { return by_time_; }
 
  protected:
+  /// Whether it failed, which is kept.
+  bool fails(const Evaluation& evaluation) {
+    failure_ = evaluation;
+    return !evaluation.ok();
+  }
+
   Eigen::VectorXd by_time_;
+
+ private:
+  Evaluation failure_;
 };
 
 /// \param system, work  kept by reference

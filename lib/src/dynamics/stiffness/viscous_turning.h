@@ -22,13 +22,16 @@ class ViscousTurning {
   /// Adds it to a sink, minus sign included.
   /// \param rate  y' at the state
   /// \param kin   its kinematics with all rates, and so again after it
-  /// \return  false where the equations fail beside the state
+  /// \return  why the equations fail at the state or beside it
   template <class Sink>
-  bool add(const State& state, const Eigen::VectorXd& rate, Kinematics& kin, Sink& sink) {
+  Evaluation add(const State& state, const Eigen::VectorXd& rate, Kinematics& kin, Sink& sink) {
     assert(kin.has_rates() && kin.has_frames());
     const double step = turning_step(kin);
-    if (!take(state, rate, -step, kin, slopes_[0]) || !take(state, rate, step, kin, slopes_[1])) return false;
-    if (!kinematics(model_, state, state.time, state.y, Motion::all, kin).ok()) return false;
+    for (const std::size_t side : {0, 1})
+      if (const Evaluation e = take(state, rate, side == 0 ? -step : step, kin, slopes_[side]); !e.ok())
+        return e;
+    if (const Evaluation e = kinematics(model_, state, state.time, state.y, Motion::all, kin); !e.ok())
+      return e;
     for_edges([&](const NodeRange& rod, std::size_t i) {
       EdgeSlopes& rates = slopes_[1][i];
       differentiate(slopes_[0][i], 2 * step, rates);
@@ -41,7 +44,7 @@ class ViscousTurning {
           if (model_.feels[row])
             sink.block(model_.carrier[row], model_.carrier[column], row == column ? Mat3(-pull) : pull);
     });
-    return true;
+    return {};
   }
 
  private:
@@ -53,16 +56,17 @@ class ViscousTurning {
   }
 
   /// Slopes a little earlier or later.
-  bool take(const State& state, const Eigen::VectorXd& rate, double h, Kinematics& kin,
-            std::vector<EdgeSlopes>& to) {
+  Evaluation take(const State& state, const Eigen::VectorXd& rate, double h, Kinematics& kin,
+                  std::vector<EdgeSlopes>& to) {
     const Eigen::Index n3 = model_.v_begin();
     const auto m = static_cast<Eigen::Index>(model_.twist_nodes);
     moved_ = state.y;
     moved_.head(n3) += h * rate.head(n3);
     moved_.segment(model_.theta_begin(), m) += h * rate.segment(model_.theta_begin(), m);
-    if (!kinematics(model_, state, state.time + h, moved_, Motion::positions, kin).ok()) return false;
-    for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, kin, to[i]); });
-    return true;
+    const Evaluation at = kinematics(model_, state, state.time + h, moved_, Motion::positions, kin);
+    if (at.ok())
+      for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, kin, to[i]); });
+    return at;
   }
 
   /// (later - before) / time, into later.
