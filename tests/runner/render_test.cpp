@@ -68,6 +68,26 @@ TEST(Render, IsTheSamePictureForAnyNumberOfThreads) {
   EXPECT_EQ(png_bytes(one), png_bytes(one));
 }
 
+TEST(Render, IsWhatAFinerPictureShows) {
+  // Edges, half shadows and the sky's light in corners are sampled where they are, at any size of the pixels.
+  Scene scene;
+  scene.view.samples = 12;
+  Picture coarse = draw({&scene.mesh, {}, {}}, scene.camera(), scene.view, 1);
+  scene.view.width *= 5, scene.view.height *= 5;
+  Picture fine = draw({&scene.mesh, {}, {}}, scene.camera(), scene.view, 1);
+  double sum = 0.0, most = 0.0;
+  for (int y = 0; y < coarse.height; ++y)
+    for (int x = 0; x < coarse.width; ++x) {
+      double mean = 0.0;
+      for (int k = 0; k < 25; ++k) mean += brightness(fine, 5 * x + k % 5, 5 * y + k / 5) / 75.0;
+      const double off = std::abs(brightness(coarse, x, y) / 3.0 - mean);
+      sum += off, most = std::max(most, off);
+    }
+  std::printf("%.2f of 255 on the mean, %.1f at most\n", sum / (80 * 60), most);
+  EXPECT_LT(sum / (80 * 60), 1.0);
+  EXPECT_LT(most, 40.0);
+}
+
 TEST(Render, KeepsEveryPointWithinThePictureWithAMargin) {
   Scene scene;
   for (const double yaw : {-170.0, -35.0, 0.0, 60.0}) {
