@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds the program and runs the showcase scene.
-#   examples/run.sh           writes out/ and prints where the picture is
+# Installs what is missing (Debian 12), builds the program, makes a scene of a mesh and runs it.
+#   examples/run.sh           writes out/ and prints where the pictures are
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . .cmake/packages.sh
@@ -9,7 +9,9 @@ bash .cmake/cgal-meshes.sh build/cgal-meshes
 # A build folder keeps the choice whether tests are built; a new one needs none for this.
 if [ -f build/CMakeCache.txt ]; then cmake --preset release -Wno-dev; else cmake --preset release -Wno-dev -DTENDRIL_TESTS=OFF; fi
 cmake --build --preset release --target tendril
-build/bin/tendril run examples/scenes/diplodocus.json --out out </dev/null
+mkdir -p out
+build/bin/tendril rig build/cgal-meshes/diplodocus.off --size 1.5 --wind 12 --out out/scene.json --picture out/rig.png </dev/null
+build/bin/tendril run out/scene.json --out out </dev/null
 
 pictures=$(find out -name '*.png' | sort)
 [ -n "$pictures" ] || { echo "the run wrote no picture into out/" >&2; exit 1; }
