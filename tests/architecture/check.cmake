@@ -70,11 +70,11 @@ function(read_layers)
 endfunction()
 
 # The layer a file belongs to: its own rule, its folder tendril/<layer>/ or src/<layer>/, or the folder's namesake; a
-# room of the program, examples/runner/<room>/.
+# room of a program, examples/runner/<room>/ or examples/gallery/<room>/.
 function(layer_of file out)
   cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${ROOT})
   set(layer "")
-  if(file MATCHES "^examples/(runner.*)/[^/]+$")
+  if(file MATCHES "^examples/((runner|gallery).*)/[^/]+$")
     set(layer ${CMAKE_MATCH_1})
   elseif(file MATCHES "^([^/]+)/include/tendril/([^/]+)/(.+)$")
     set(layer ${CMAKE_MATCH_2})
@@ -112,7 +112,7 @@ function(layer_of file out)
 endfunction()
 
 # What an include line points to, in the words of layers.txt: tendril headers lose their prefix, a quoted path becomes
-# the layer of the file it names (beside the including file, under its component's src/ or the program's folder, or in lib/src/base, whose headers
+# the layer of the file it names (beside the including file, under its component's src/ or a program's folder, or in lib/src/base, whose headers
 # serve the sources of all components).
 function(target_of file quote path out)
   set(target ${path})
@@ -121,7 +121,7 @@ function(target_of file quote path out)
     cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE relative)
     string(REGEX MATCH "^[^/]+" top ${relative})
     set(target "")
-    set(bases ${here} ${ROOT}/${top}/src ${ROOT}/${top}/runner)
+    set(bases ${here} ${ROOT}/${top}/src ${ROOT}/${top}/runner ${ROOT}/${top}/gallery)
     if(path MATCHES "^base/")
       list(APPEND bases ${ROOT}/lib/src)
     endif()
@@ -197,7 +197,7 @@ function(check_room folder)
 endfunction()
 
 function(check_rooms)
-  foreach(top lib/src bind/src collision/src examples/runner)
+  foreach(top lib/src bind/src collision/src examples/runner examples/gallery)
     check_room(${ROOT}/${top})
     file(GLOB_RECURSE entries LIST_DIRECTORIES true ${ROOT}/${top}/*)
     foreach(entry IN LISTS entries)
@@ -245,7 +245,7 @@ endfunction()
 
 read_layers()
 set(component_files 0)
-foreach(folder lib bind collision examples/runner)
+foreach(folder lib bind collision examples/runner examples/gallery)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
   foreach(file IN LISTS files)
     check_component_file(${file})
@@ -266,6 +266,6 @@ if(component_files EQUAL 0)
   message(FATAL_ERROR "no source file found under ${ROOT}: nothing was checked")
 endif()
 if(findings GREATER 0)
-  message(FATAL_ERROR "${findings} finding(s) in ${component_files} files of lib, bind, collision and examples/runner")
+  message(FATAL_ERROR "${findings} finding(s) in ${component_files} files of lib, bind, collision and the programs")
 endif()
-message(NOTICE "${component_files} files of lib, bind, collision and examples/runner keep the rules of layers.txt")
+message(NOTICE "${component_files} files of lib, bind, collision and the programs keep the rules of layers.txt")
