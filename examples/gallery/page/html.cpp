@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "figure.h"
@@ -60,7 +61,9 @@ std::string section(const Figure& figure) {
 }  // namespace
 
 std::string text(const char* format, double value) {
-  return svg::number(format, value);
+  char out[200];
+  std::snprintf(out, sizeof out, format, value);
+  return out;
 }
 
 const char* to_string(Verdict verdict) {

@@ -1,5 +1,9 @@
 #include "mesh_springs.h"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 namespace tendril::gallery {
 
 SpringNet cloth_net(std::span<const Vec3> points, int columns, int rows, double mass,
@@ -25,6 +29,23 @@ SpringNet cloth_net(std::span<const Vec3> points, int columns, int rows, double 
       const bool rising = (r + c) % 2 == 1;
       net.springs.push_back(
           spring_between(points, at(rising ? 1 : 0, 0), at(rising ? 0 : 1, 1), springs.shear));
+    }
+  return net;
+}
+
+SpringNet closed_mesh_net(std::span<const Vec3> points,
+                          std::span<const std::array<std::uint32_t, 3>> triangles, double mass,
+                          double stiffness) {
+  SpringNet net{{points.begin(), points.end()}, {}, {}};
+  net.mass.assign(points.size(), mass / static_cast<double>(points.size()));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      facing;  // the corner of the first triangle
+  for (const auto& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];
+      const auto [at, first] = facing.try_emplace(std::minmax(a, b), c);
+      net.springs.push_back(first ? spring_between(points, a, b, stiffness)
+                                  : spring_between(points, at->second, c, stiffness));
     }
   return net;
 }

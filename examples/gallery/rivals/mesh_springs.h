@@ -16,4 +16,10 @@ struct ClothSprings {
 SpringNet cloth_net(std::span<const Vec3> points, int columns, int rows, double mass,
                     const ClothSprings& springs);
 
+/// Springs on a closed mesh of triangles: one along each edge, and one across it between the two corners that
+/// face it, against bending.
+SpringNet closed_mesh_net(std::span<const Vec3> points,
+                          std::span<const std::array<std::uint32_t, 3>> triangles, double mass,
+                          double stiffness);
+
 }  // namespace tendril::gallery
