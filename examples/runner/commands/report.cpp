@@ -68,7 +68,7 @@ Plan plan_for(const Options& options) {
 System system_of(const scene::SceneFile& file) {
   System system = scene::make_system(file);
   try {
-    const Simulation simulation(system, system.rest_state(), file.options);
+    const Simulation simulation(system, scene::start_state(file, system), file.options);
   } catch (const InvalidInput& error) {
     throw scene::in_scene(file, error);
   }

@@ -158,7 +158,7 @@ Trial Study::run(const Setting& setting, double cap, bool patient) const {
   trial.setting = setting;
   const double begin = cpu_seconds();
   try {
-    Simulation simulation(system_, system_.rest_state(), options_for(file_, setting, patient));
+    Simulation simulation(system_, scene::start_state(file_, system_), options_for(file_, setting, patient));
     Tracker tracker(system_, simulation);
     simulation.add(tracker, Simulation::When::output);
     bool cancelled = false;

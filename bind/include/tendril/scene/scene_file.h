@@ -15,6 +15,15 @@
 
 namespace tendril::scene {
 
+/// How some curve-pairs move at the start: as one rigid body, added to what else moves them. What is held
+/// moves as its anchor says.
+struct StartMotion {
+  std::vector<std::size_t> curve_pairs;  ///< at least one
+  Vec3 velocity = Vec3::Zero();          ///< [length / time]
+  Vec3 spin = Vec3::Zero();              ///< angular velocity [rad / time]
+  std::optional<Vec3> about;  ///< a point that the spin leaves in place; none: their centre of mass
+};
+
 /// Everything a scene file says, checked, with the library's own types filled in. All numbers are in the
 /// scene's units. May be changed before it is run.
 struct SceneFile {
@@ -37,6 +46,9 @@ struct SceneFile {
   std::optional<std::size_t> self_contact;   ///< of that of rods with each other and themselves
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
+  std::vector<StartMotion> start_motions;    ///< see start_state
+  bool start_at_equilibrium = false;         ///< of all forces, at time 0; else at rest, unstressed
+  std::string start_place;                   ///< JSON pointer of what says so
   SimulationOptions options;                 ///< method, tolerance, limits, degree of the curves
   StaticsOptions statics;                    ///< the load from which its equilibrium is followed
   double duration = 0.0;                     ///< positive
@@ -65,5 +77,12 @@ TENDRIL_SCENE_API SceneError in_scene(const SceneFile& file, const InvalidInput&
 /// The scene flattened, ready for a Simulation or a search for its equilibrium.
 /// Throws SceneError where the library refuses the scene or its rest state.
 TENDRIL_SCENE_API System make_system(const SceneFile& file);
+
+/// Where and how the scene starts, at time 0.
+/// \param file    the scene
+/// \param system  of make_system
+/// Throws SceneError where there is no equilibrium to start from. Cost: that of find_equilibrium where asked
+/// for.
+TENDRIL_SCENE_API State start_state(const SceneFile& file, const System& system);
 
 }  // namespace tendril::scene

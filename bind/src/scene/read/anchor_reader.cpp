@@ -1,5 +1,6 @@
 #include "scene/read/anchor_reader.h"
 
+#include "scene/motion/table.h"
 #include "scene/read/rod_reader.h"
 
 #include <algorithm>
@@ -32,24 +33,36 @@ struct Motion {
   Frame frame;
   Vec3 shift = Vec3::Zero();  ///< amplitude of the translation
   Wave shift_wave;
+  TimeTable shifts;  ///< instead of the wave, unless empty
   Vec3 axis = Vec3::UnitZ(), about = Vec3::Zero();
   double angle = 0.0;  ///< amplitude of the rotation [rad]
   Wave angle_wave;
+  TimeTable angles;  ///< their x instead of the wave, unless empty
+
+  Vec3 shift_at(double t) const { return shifts.empty() ? shift * shift_wave.value(t) : shifts.value(t); }
+  Vec3 shift_rate(double t) const { return shifts.empty() ? shift * shift_wave.rate(t) : shifts.rate(t); }
+  double angle_at(double t) const {
+    return angles.empty() ? angle * angle_wave.value(t) : angles.value(t).x();
+  }
+  double angle_rate(double t) const {
+    return angles.empty() ? angle * angle_wave.rate(t) : angles.rate(t).x();
+  }
 
   AnchorPose operator()(double t) const {
-    const auto turned = [&](const Vec3& v) { return rotate_about(axis, angle * angle_wave.value(t), v); };
+    const auto turned = [&](const Vec3& v) { return rotate_about(axis, angle_at(t), v); };
     const Vec3 arm = turned(rest - about);
     AnchorPose pose;
-    pose.angular_velocity = axis * (angle * angle_wave.rate(t));
-    pose.position = about + arm + shift * shift_wave.value(t);
-    pose.velocity = pose.angular_velocity.cross(arm) + shift * shift_wave.rate(t);
+    pose.angular_velocity = axis * angle_rate(t);
+    pose.position = about + arm + shift_at(t);
+    pose.velocity = pose.angular_velocity.cross(arm) + shift_rate(t);
     pose.frame = {turned(frame.x), turned(frame.y), turned(frame.z)};
     return pose;
   }
   double period() const {
-    const double turns =
+    double turns =
         angle_wave.even && angle != 0.0 ? 2.0 * std::numbers::pi / std::abs(angle) : angle_wave.period();
-    return std::min(turns, shift_wave.period());
+    if (!angles.empty()) turns = angles.period();
+    return std::min(turns, shifts.empty() ? shift_wave.period() : shifts.period());
   }
 };
 
@@ -72,10 +85,18 @@ const char* read_wave(const JsonNode& node, const char* rate, Wave& wave) {
   return "amplitude";
 }
 
+/// A motion by a table is given by nothing else.
+TimeTable read_motion_table(const JsonNode& node, std::size_t width) {
+  for (const char* key : {"amplitude", "velocity", "rate", "frequency", "phase"})
+    if (node.has(key)) node.at(key).refuse("beside a table", "a table alone");
+  return read_table(node.at("table"), width);
+}
+
 struct Rotation {
   Vec3 axis;
   double angle;
   Wave wave;
+  TimeTable table;
   std::optional<Vec3> about;
 };
 
@@ -84,8 +105,11 @@ Rotation read_rotation(const JsonNode& node) {
   const double length = axis.stableNorm();
   if (!(length > 0.0) || !std::isfinite(length))
     node.at("axis").refuse("no direction", "a vector that is not zero");
-  Rotation out{axis / length, 0.0, {}, std::nullopt};
-  out.angle = node.at(read_wave(node, "rate", out.wave)).number();
+  Rotation out{axis / length, 0.0, {}, {}, std::nullopt};
+  if (node.has("table"))
+    out.table = read_motion_table(node, 1);
+  else
+    out.angle = node.at(read_wave(node, "rate", out.wave)).number();
   if (node.has("about")) out.about = node.at("about").vec3();
   return out;
 }
@@ -115,13 +139,17 @@ ReadMotion read_motion(const JsonNode& node, const Vec3& rest, const Frame& fram
   motion.frame = frame;
   if (node.has("translation")) {
     const JsonNode way = node.at("translation");
-    motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
+    if (way.has("table"))
+      motion.shifts = read_motion_table(way, 3);
+    else
+      motion.shift = way.at(read_wave(way, "velocity", motion.shift_wave)).vec3();
   }
   if (node.has("rotation")) {
     const Rotation rotation = read_rotation(node.at("rotation"));
     motion.axis = rotation.axis;
     motion.angle = rotation.angle;
     motion.angle_wave = rotation.wave;
+    motion.angles = rotation.table;
     motion.about = rotation.about.value_or(rest);
   }
   return {motion, motion.period()};

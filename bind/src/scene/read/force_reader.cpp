@@ -1,5 +1,6 @@
 #include "scene/read/force_reader.h"
 
+#include "scene/json/names.h"
 #include "scene/read/rod_reader.h"
 
 #include <tendril/dynamics/forces.h>
@@ -67,12 +68,6 @@ WindOptions read_wind(const JsonNode& force) {
 }
 
 }  // namespace
-
-std::size_t read_name(const JsonNode& name, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name.text());
-  if (found == names.end()) name.refuse("no curve-pair is called " + quote(name.value()), "the name of one");
-  return static_cast<std::size_t>(found - names.begin());
-}
 
 std::shared_ptr<const Force> read_force(const JsonNode& force, const std::vector<Rod>& rods,
                                         const std::vector<std::string>& names) {

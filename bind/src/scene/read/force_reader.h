@@ -13,7 +13,4 @@ namespace tendril::scene {
 std::shared_ptr<const Force> read_force(const JsonNode& force, const std::vector<Rod>& rods,
                                         const std::vector<std::string>& names);
 
-/// Number of the curve-pair with that name.
-std::size_t read_name(const JsonNode& name, const std::vector<std::string>& names);
-
 }  // namespace tendril::scene

@@ -165,6 +165,17 @@ SpringConstants read_springs(const JsonNode& springs) {
   return out;
 }
 
+/// Masses, or discs across the rod, fixed to nodes.
+void add_masses(const JsonNode& curve_pair, Rod& rod) {
+  if (!curve_pair.has("masses")) return;
+  const JsonNode masses = curve_pair.at("masses");
+  for (std::size_t k = 0; k < masses.size(); ++k) {
+    const std::size_t node = read_node(masses.at(k).at("node"), rod);
+    rod.mass[node] += masses.at(k).at("mass").positive();
+    rod.inertia[node] += masses.at(k).number_or("inertia", 0.0);
+  }
+}
+
 }  // namespace
 
 Rod read_rod(const JsonNode& curve_pair) {
@@ -179,6 +190,7 @@ Rod read_rod(const JsonNode& curve_pair) {
     return with_sections(chain, read_material(curve_pair.at("material")),
                          SectionReader(curve_pair.at("section"), curve_pair.at("points").size()));
   });
+  add_masses(curve_pair, rod);
   rod.mass_damping = curve_pair.number_or("mass_damping", 0.0);
   rod.viscosity = curve_pair.number_or("viscosity", 0.0);
   return rod;

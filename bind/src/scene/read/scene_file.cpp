@@ -1,5 +1,7 @@
 #include "scene/json/line_of.h"
+#include "scene/json/names.h"
 #include "scene/json/schema.h"
+#include "scene/motion/start_reader.h"
 #include "scene/read/anchor_reader.h"
 #include "scene/read/contact_reader.h"
 #include "scene/read/force_reader.h"
@@ -129,6 +131,7 @@ std::optional<std::size_t> index_of(const std::string& place, const std::string&
 /// The part of the file that a place in the library's words is about; empty where it is about all of it.
 std::string pointer_of(const SceneFile& file, const std::string& place) {
   if (const auto rod = index_of(place, "rods")) return "/curve_pairs/" + std::to_string(*rod);
+  if (place == "start") return file.start_place;
   if (place.rfind("contact", 0) == 0 && file.make_mesh_contact) return file.mesh_contact_place;
   if (place.rfind("contact", 0) == 0 && file.contact) return file.force_places[*file.contact];
   if (const auto body = index_of(place, "bodies"))
@@ -162,6 +165,7 @@ SceneFile read_text(std::string_view text, const std::string& name) {
   if (file.has("forces")) read_forces(file.at("forces"), out);
   read_contact(file, out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
+  if (file.has("start")) read_start(file.at("start"), out);
   read_simulation(file.at("simulation"), out);
   if (file.has("statics")) read_statics(file.at("statics"), out);
   read_picture(file, out);

@@ -64,7 +64,7 @@ std::vector<std::size_t> let_meet(const BoundMesh& mesh, SceneFile& file) {
 
 Simulation make_simulation(const SceneFile& file, const System& system, const RunOptions& options) {
   try {
-    return {system, options.start ? *options.start : system.rest_state(), file.options};
+    return {system, options.start ? *options.start : start_state(file, system), file.options};
   } catch (const InvalidInput& error) {
     throw in_scene(file, error);
   }

@@ -70,10 +70,15 @@ void EnergyBalance::look(const State& state, const Energies& energies) {
   const double sprung = std::abs(last_.elastic - laid_out_.elastic);
   const double came = state.y[state.y.size() - 1] - laid_out_work_ - (last_.potential - laid_out_.potential);
   const double fell = std::abs(last_.potential - laid_out_.potential);
-  own_scale_ = std::max({own_scale_, kRounding * (last_.kinetic + sprung + fell),
-                         last_.kinetic - common + sprung + std::abs(came - (common - laid_out_common_))});
-  scale_ = std::max(scale_, last_.kinetic + std::abs(last_.elastic - first_.elastic) +
-                                std::abs(last_.potential - first_.potential) + std::abs(work(state)));
+  // What is stored from the start counts too: a scene at rest in its equilibrium has no other energy, and its
+  // sum is no more exact than that.
+  const double rounding =
+      kRounding * (last_.kinetic + sprung + fell + std::abs(last_.elastic) + std::abs(last_.potential));
+  own_scale_ = std::max(
+      {own_scale_, rounding, last_.kinetic - common + sprung + std::abs(came - (common - laid_out_common_))});
+  scale_ = std::max({scale_, rounding,
+                     last_.kinetic + std::abs(last_.elastic - first_.elastic) +
+                         std::abs(last_.potential - first_.potential) + std::abs(work(state))});
   off_ = off(state, last_);
   imbalance_ = scale_ > 0.0 ? off_ / scale_ : 0.0;
 }
