@@ -10,7 +10,9 @@ const std::vector<Entry>& entries() {
       {"Counts", "3.11", masses_and_springs_counted},
       {"Fitted", "3.12", curve_through_the_masses},
       {"Cloth", "4.1", cloth_of_49_vertices},
+      {"Stingray", "4.3", stingray_swims},
       {"Plant", "4.5", plant_in_wind},
+      {"Ribbon", "4.7", ribbon_dance},
   };
   return all;
 }

@@ -22,11 +22,6 @@ std::string shaded(const std::string& colour, double light) {
   return out;
 }
 
-/// "#rgb" where that says the same to the eye: there may be thousands of faces.
-std::string brief(const std::string& colour) {
-  return {'#', colour[1], colour[3], colour[5]};
-}
-
 }  // namespace
 
 struct Sketch::Frame {
@@ -48,7 +43,7 @@ std::string Sketch::drawn(const Item& item, const Frame& frame) {
   switch (item.kind) {
     case Item::Kind::face:
       return "<path class=\"" + std::string(item.opacity < 1.0 ? "ghost" : "face") + "\" d=\"" + path +
-             "Z\" fill=\"" + brief(item.colour) + "\"/>\n";
+             "Z\" fill=\"" + item.colour + "\"/>\n";
     case Item::Kind::line:
       return svg::Element("path")
           .with("d", path)
