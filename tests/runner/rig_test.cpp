@@ -255,14 +255,25 @@ TEST(Rig, RefusesWithAReasonAndWritesNothing) {
                                                    Vec3(-1.2, -1.2, -1.2), Vec3(1.2, 1.2, 1.2), 0.1001)
                                             .mesh());
   folder.write("tube.off", tube_off());
+  folder.write("points.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n2 1 0\n");
+  folder.write("axis.json",
+               R"({"version": 1, "degree": 1, "points": [[0,0,0],[1,0,0]], "orientation": [0,1,0]})");
+  PolygonMesh huge = prism(ellipse_outline(1, 1, 0, 8), 10.0, 4);
+  for (Vec3& p : huge.points) p *= 1e100;
+  bind::write_mesh(folder / "huge.off", huge);
+  folder.write(
+      "huge.json",
+      R"({"version": 1, "degree": 1, "points": [[0,0,0],[5e100,0,0],[1e101,0,0]], "orientation": [0,1,0]})");
   folder.write("loop.json", R"({"version": 1, "curves": [
     {"name": "a", "points": [[0,0,0],[1,0,0]], "orientation": [0,1,0]},
     {"name": "b", "joint": {"curve_pair": "a", "node": 2}, "points": [[1,0,0],[1,1,0]], "orientation": [1,0,0]}]})");
   const std::vector<std::pair<std::string, std::string>> cases{
       {"ball.off", "ball.off: "},
+      {"points.off --axis axis.json", "points.off: no faces"},
+      {"huge.off --axis huge.json", "huge.off: "},
       {"tube.off", "tube.off: "},
       {"animal.off --material jelly", "one of: rubber, foam, wood, steel, leaf"},
-      {"animal.off --hold nose", "feet, root, lowest, or a curve's name: axis"},
+      {"animal.off --hold nose", "feet, middle, root, lowest, or a curve's name: axis"},
       {"animal.off --size 0", "--size"},
       {"animal.off --size nan", "--size"},
       {"animal.off --wind -1", "--wind"},

@@ -147,8 +147,9 @@ Command rig_command(CLI::App& parent) {
   for (const NamedMaterial& m : materials()) names += (names.empty() ? "" : ", ") + std::string(m.name);
   app->add_option("--material", options->rig.material, names + "; rubber where that stands, or else foam");
   app->add_option("--size", options->rig.size, "largest extent of the mesh in metres; 1 by default");
-  app->add_option("--hold", options->rig.hold,
-                  "feet, root, lowest or a curve's name; feet where there are any");
+  app->add_option(
+      "--hold", options->rig.hold,
+      "feet, middle, root, lowest or a curve's name; feet where there are any, or else the middle");
   app->add_option("--up", options->rig.up, "x, y, z, -x, -y or -z; guessed by the feet");
   app->add_option("--wind", options->rig.wind,
                   "mean speed in metres a second, 0 for none; 8, or less where that would be a gale");

@@ -34,6 +34,8 @@ Rig rig_mesh(const bind::PolygonMesh& mesh, const std::string& path, const RigAx
   try {
     return make_rig(mesh, std::move(curves), options);
   } catch (const InvalidInput& error) {
+    if (error.place().rfind("points[", 0) == 0)
+      throw InvalidInput(path + ": " + error.place(), error.reason(), error.expected());
     if (error.place() != "mesh") throw;
     throw InvalidInput(path, error.reason(), error.expected());
   }

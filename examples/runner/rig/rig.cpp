@@ -3,6 +3,7 @@
 #include "draw/camera.h"
 
 #include <tendril/base/error.h>
+#include <tendril/base/number.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,12 @@
 namespace tendril::runner {
 namespace {
 
-constexpr double kGravity = 9.81;                    // m/s^2
-constexpr double kSole = 0.08;                       // of the height: so near to the ground a foot is held
-constexpr double kCarried = 3.0, kMostSag = 0.15;    // see RigOptions::size
-constexpr double kMostWind = 8.0, kMostSway = 0.02;  // [m/s]; see RigOptions::wind
-constexpr double kLeastOfRubber = 0.15;              // [m], see RigOptions::material
+constexpr double kGravity = 9.81;                     // m/s^2
+constexpr double kSole = 0.08;                        // of the height: so near to the ground a foot is held
+constexpr double kCarried = 3.0, kMostSag = 0.15;     // see RigOptions::size
+constexpr double kMostWind = 8.0, kMostSway = 0.02;   // [m/s]; see RigOptions::wind
+constexpr double kLeastOfRubber = 0.15;               // [m], see RigOptions::material
+constexpr double kSmallest = 1e-60, kLargest = 1e60;  // fourth powers of lengths are numbers
 constexpr double kLeastSlender = 3.0;  // length of the first curve over the width of its sections
 
 double extent(const bind::PolygonMesh& mesh) {
@@ -40,6 +42,19 @@ Held end_nodes(const std::vector<RigCurve>& curves, const CurveEnd& end, const S
   return {end.curve, std::max(first, n - count), n};
 }
 
+/// The edge at half the first curve's length: limbs sway to both sides of it.
+Held middle(const RigCurve& curve) {
+  double length = 0.0, along = 0.0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    length += (curve.points[i] - curve.points[i - 1]).norm();
+  std::size_t last = 1;
+  for (; last + 1 < curve.points.size(); ++last) {
+    along += (curve.points[last] - curve.points[last - 1]).norm();
+    if (2.0 * along >= length) break;
+  }
+  return {0, last - 1, last};
+}
+
 /// The lower end of the first curve.
 CurveEnd root(const std::vector<RigCurve>& curves, const Vec3& up) {
   return {0, curves[0].points.back().dot(up) < curves[0].points.front().dot(up)};
@@ -49,7 +64,7 @@ std::vector<CurveEnd> ends_to_hold(const Rig& rig, const std::string& hold) {
   if (hold == "feet") {
     if (rig.stance.feet.empty())
       throw InvalidInput("--hold", "nothing of the mesh stands on the ground",
-                         "root, lowest, a curve's name, or another --up");
+                         "middle, root, lowest, a curve's name, or another --up");
     return rig.stance.feet;
   }
   if (hold == "root") return {root(rig.curves, rig.stance.up)};
@@ -59,7 +74,8 @@ std::vector<CurveEnd> ends_to_hold(const Rig& rig, const std::string& hold) {
     if (rig.curves[k].name == hold) return {{k, true}};
     names += ", " + rig.curves[k].name;
   }
-  throw InvalidInput("--hold", "'" + hold + "'", "feet, root, lowest, or a curve's name: " + names.substr(2));
+  throw InvalidInput("--hold", "'" + hold + "'",
+                     "feet, middle, root, lowest, or a curve's name: " + names.substr(2));
 }
 
 void require_slender(const Rig& rig) {
@@ -106,15 +122,23 @@ Rig make_rig(const bind::PolygonMesh& mesh, std::vector<RigCurve> curves, const 
     throw InvalidInput("--size", std::to_string(*options.size), "metres from 0.001 to 10000");
   if (options.wind && (!(*options.wind >= 0.0) || !(*options.wind <= 100.0)))
     throw InvalidInput("--wind", std::to_string(*options.wind), "metres a second from 0 to 100");
+  if (mesh.face_count() == 0) throw InvalidInput("mesh", "no faces", "a surface");
+  const double large = extent(mesh);
+  if (!(large > kSmallest) || !(large < kLargest))
+    throw InvalidInput("mesh", "it is " + shortest(large) + " large", "a largest extent from 1e-60 to 1e60");
   rig.curves = std::move(curves);
   rig.body = measure_body(mesh, rig.curves);
   require_slender(rig);
   rig.up_guessed = options.up.empty();
   rig.stance = rig.up_guessed ? guess_stance(mesh, rig.curves, rig.body)
                               : stand(mesh, rig.curves, rig.body, up_direction(options.up));
-  rig.held_as = !options.hold.empty() ? options.hold : rig.stance.feet.empty() ? "lowest" : "feet";
-  for (const CurveEnd& end : ends_to_hold(rig, rig.held_as))
-    rig.held.push_back(end_nodes(rig.curves, end, rig.stance));
+  rig.held_as = !options.hold.empty() ? options.hold : rig.stance.feet.empty() ? "middle" : "feet";
+  if (rig.held_as == "middle") {
+    rig.held.push_back(middle(rig.curves[0]));
+  } else {
+    for (const CurveEnd& end : ends_to_hold(rig, rig.held_as))
+      rig.held.push_back(end_nodes(rig.curves, end, rig.stance));
+  }
   rig.size_given = options.size.has_value();
   rig.size = options.size.value_or(standing_size(rig, extent(mesh)));
   if (!rig.material_given && !rig.size_given && rig.size < kLeastOfRubber) {

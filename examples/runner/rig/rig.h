@@ -14,7 +14,7 @@ struct RigOptions {
   /// The mesh's largest extent [m]; by default one metre, or what it takes for legs of the material to carry
   /// three times their share of the weight and for no limb to sag by more than 15 %.
   std::optional<double> size;
-  std::string hold;  ///< feet, root, lowest, or a curve's name; empty: feet, or else lowest
+  std::string hold;  ///< feet, middle, root, lowest, or a curve's name; empty: feet, or else middle
   std::string up;    ///< x, y, z, -x, -y, -z; empty: guessed
   /// Mean speed [m/s]; by default 8, or what pushes it aside by 2 % of its height. 0 for none.
   std::optional<double> wind;
@@ -28,7 +28,7 @@ struct Rig {
   Stance stance{};
   bool up_guessed = false;
   std::vector<Held> held;
-  std::string held_as;  ///< "feet", "root", "lowest" or "curve"
+  std::string held_as;  ///< as RigOptions::hold has it
   NamedMaterial material{};
   bool material_given = false;
   double size = 1.0;  ///< largest extent [m]

@@ -6,6 +6,7 @@
 #include <tendril/bind/binding.h>
 #include <tendril/bind/inspect.h>
 #include <tendril/curve/fit.h>
+#include <tendril/curve/frame_jump.h>
 #include <tendril/curve/frames.h>
 
 #include <algorithm>
@@ -299,6 +300,9 @@ Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves) 
   double edge = INFINITY;
   for (const RigCurve& curve : curves) {
     axes.emplace_back(curve);
+    if (const auto jump = find_frame_jump(axes.back().pair, axes.back().parameters))
+      throw InvalidInput("mesh", "the axis '" + curve.name + "': " + describe(*jump, "nodes"),
+                         "axes that carry on along themselves; --axis takes them mended by hand");
     edge = std::min(edge, mean_edge(curve.points));
   }
   const bind::PolygonMesh fine = split_long_edges(mesh, edge);

@@ -45,7 +45,8 @@ struct Body {
 /// down to a third of the way, below that the nearest sections do. Within the body that a limb is joined to,
 /// its sections go over into that body's.
 ///
-/// InvalidInput naming a curve that has no skin and no radius of its own. Cost: a projection a point.
+/// InvalidInput naming a curve that has no skin and no radius of its own, or whose frames do not carry on.
+/// Cost: a projection a point.
 Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves);
 
 }  // namespace tendril::runner

@@ -97,7 +97,7 @@ Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves,
 
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  const std::pair<Vec3, double> choices[]{{y, 1.5}, {z, 1.0}, {x, 0.0}, {-y, 0.0}, {-z, 0.0}, {-x, 0.0}};
+  const std::pair<Vec3, double> choices[]{{y, 2.5}, {z, 2.0}, {x, 0.0}, {-y, 0.0}, {-z, 0.0}, {-x, 0.0}};
   Stance best;
   double most = -1.0;
   for (const auto& [up, bonus] : choices) {

@@ -25,8 +25,8 @@ struct Stance {
 Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body,
              const Vec3& up);
 
-/// The direction among x, y, z and their opposites in which the most feet are below; y counts one and a half
-/// feet more than it has, z one, as most meshes have one of these up.
+/// The direction among x, y, z and their opposites in which the most feet are below; y counts two and a half
+/// feet more than it has, z two, as most meshes have one of these up.
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body);
 
 }  // namespace tendril::runner
