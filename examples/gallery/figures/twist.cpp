@@ -230,7 +230,7 @@ std::string percent(double part) {
 Figure twist_of_a_bar() {
   const Object object;
   Figure out{
-      "3.10", "A bar twisted: lattices of free-form deformation and the curve-pair",
+      "3.10", "A bar twisted: lattices of free-form deformation and the curve-pair (also 4.2)",
       "The thesis twists one lattice by 90 degrees and says that it collapses. Here a ribbed bar is twisted "
       "by one "
       "lattice whose end is turned, by a lattice of four cells with a mass at each control point and 18 "

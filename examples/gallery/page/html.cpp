@@ -23,6 +23,16 @@ std::string element(const std::string& name, const std::string& inside, const st
   return "<" + name + (kind.empty() ? "" : " class=\"" + kind + "\"") + ">" + inside + "</" + name + ">";
 }
 
+const char* const kElsewhere =
+    "<h2>Elsewhere in the tree</h2>\n<ul>"
+    "<li>3.5, integrators, error against run time: <code>tendril report "
+    "examples/scenes/cantilever.json</code></li>"
+    "<li>3.22, 3.23, the bounding cylinder and what sticks out of it: "
+    "<code>build/bin/culling_test</code></li>"
+    "<li>4.4, a ball falls on a crooked leaf: <code>tendril run "
+    "examples/scenes/ball_on_leaf_blade.json</code></li>"
+    "<li>3.20, the trumpet, is not repeated.</li></ul>\n";
+
 std::string claim_row(const Figure& figure, const Claim& claim) {
   const std::string verdict = to_string(claim.verdict);
   const std::string because = claim.because.empty() ? "" : ": " + escaped(claim.because);
@@ -100,7 +110,7 @@ std::string to_html(const std::vector<Figure>& figures) {
                  "numbers are held to the bounds beside them by the test gallery_test.") +
          "\n<table><tr><th>figure</th><th>what it claims</th><th>what we "
          "measured</th><th>verdict</th></tr>\n" +
-         claims + "</table>\n" + sections + "</body></html>\n";
+         claims + "</table>\n" + sections + kElsewhere + "</body></html>\n";
 }
 
 }  // namespace tendril::gallery
