@@ -128,7 +128,9 @@ Figure stingray_swims() {
   Figure out{"4.3", "A stingray, its fins and tail driven by A u sin t",
              "A body, a fin to either side and a tail, each a curve-pair, joined; nothing is held. A force A "
              "u sin t acts on "
-             "the tip of each fin and of the tail, water resists. The thesis says that forces on a few "
+             "the tip of each fin and of the tail, water resists. The forces are gentle: at four to six "
+             "times as much "
+             "the fins move at other frequencies too. The thesis says that forces on a few "
              "points do what else "
              "takes every control point by hand."};
   double differ = 0.0;

@@ -201,8 +201,9 @@ Figure springs_that_lose_their_shape() {
   const Kind frames = kind_of("frame springs", settling(system));
   Figure out{"3.8", "Springs that lose their shape, and springs that return (also 3.3)",
              "A chain of six masses, curved at rest, its first edge held. Each mass is given a random "
-             "velocity of up to 4 "
-             "lengths a second along each axis, 200 times over, and the chain settles under damping: in the "
+             "velocity of up to 4 m/s "
+             "(it is a metre long; much faster ones fold the chain, which is refused) along each axis, 200 "
+             "times over, and the chain settles under damping: in the "
              "plane of its rest shape, and in space. "
              "Bending springs join second neighbours, angular springs hold the angle between neighbouring "
              "edges, and the "
