@@ -2,6 +2,7 @@
 #include <tendril/scene/scene_file.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "runner/program.h"
@@ -17,7 +18,7 @@ double largest_displacement(const std::string& trajectory) {
   std::string line;
   std::getline(in, line);
   std::map<std::string, Vec3> first;
-  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   double most = 0.0;
   while (std::getline(in, line)) {
     std::vector<std::string> cells;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tendril::runner {
@@ -70,7 +71,7 @@ std::vector<Beam> legs_of(const std::vector<RigCurve>& curves, const Body& body,
 /// Euler's load of a leg that is clamped at both ends and free to sway, pi^2 E I / L^2, over its share of the
 /// weight; by the mean of 1 / I, as the thinnest part gives way.
 double least_carried(const std::vector<Beam>& legs, double young, double weight) {
-  double least = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
   for (const Beam& leg : legs)
     least = std::min(least,
                      kPi * kPi * young / (leg.give * leg.length) * static_cast<double>(legs.size()) / weight);

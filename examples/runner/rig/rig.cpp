@@ -12,7 +12,6 @@
 namespace tendril::runner {
 namespace {
 
-constexpr double kGravity = 9.81;                     // m/s^2
 constexpr double kSole = 0.08;                        // of the height: so near to the ground a foot is held
 constexpr double kCarried = 3.0, kMostSag = 0.15;     // see RigOptions::size
 constexpr double kMostWind = 8.0, kMostSway = 0.02;   // [m/s]; see RigOptions::wind

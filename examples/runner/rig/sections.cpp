@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tendril::runner {
@@ -297,7 +298,7 @@ void make_positive(std::vector<std::vector<Moments>>& moments) {
 
 Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves) {
   std::vector<Axis> axes;
-  double edge = INFINITY;
+  double edge = std::numeric_limits<double>::infinity();
   for (const RigCurve& curve : curves) {
     axes.emplace_back(curve);
     if (const auto jump = find_frame_jump(axes.back().pair, axes.back().parameters))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tendril::runner {
 namespace {
@@ -21,7 +22,7 @@ std::vector<CurveEnd> ends_of(const std::vector<RigCurve>& curves) {
 }
 
 double lowest_of(const std::vector<Vec3>& points, const Vec3& up) {
-  double low = INFINITY;
+  double low = std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) low = std::min(low, p.dot(up));
   return low;
 }
@@ -85,7 +86,7 @@ Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves,
              const Vec3& up) {
   const double ground = lowest_of(mesh.points, up);
   Stance out{up, {}, {0, true}, -lowest_of(mesh.points, -up) - ground, ground};
-  double lowest = INFINITY;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const CurveEnd& end : ends_of(curves)) {
     const std::vector<Vec3>& skin = (end.last ? body.last_skin : body.first_skin)[end.curve];
     const double low = skin.empty() ? tip_of(curves, end).dot(up) : lowest_of(skin, up);
