@@ -29,6 +29,7 @@ std::vector<RigCurve> read_rig_curves(const std::string& path) {
 
 Rig rig_mesh(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& axes,
              const RigOptions& options) {
+  check(options);  // before axes are looked for, which takes its time
   std::vector<RigCurve> curves =
       axes.file.empty() ? find_curves(mesh, path, axes) : read_rig_curves(axes.file);
   try {

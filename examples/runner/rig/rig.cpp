@@ -113,14 +113,20 @@ Vec3 wind_direction(const std::vector<RigCurve>& curves, const Vec3& up) {
 
 }  // namespace
 
-Rig make_rig(const bind::PolygonMesh& mesh, std::vector<RigCurve> curves, const RigOptions& options) {
-  Rig rig;
-  rig.material_given = !options.material.empty();
-  rig.material = find_material(rig.material_given ? options.material : "rubber");
+void check(const RigOptions& options) {
+  if (!options.material.empty()) find_material(options.material);
+  if (!options.up.empty()) up_direction(options.up);
   if (options.size && (!(*options.size >= 1e-3) || !(*options.size <= 1e4)))
     throw InvalidInput("--size", std::to_string(*options.size), "metres from 0.001 to 10000");
   if (options.wind && (!(*options.wind >= 0.0) || !(*options.wind <= 100.0)))
     throw InvalidInput("--wind", std::to_string(*options.wind), "metres a second from 0 to 100");
+}
+
+Rig make_rig(const bind::PolygonMesh& mesh, std::vector<RigCurve> curves, const RigOptions& options) {
+  check(options);
+  Rig rig;
+  rig.material_given = !options.material.empty();
+  rig.material = find_material(rig.material_given ? options.material : "rubber");
   if (mesh.face_count() == 0) throw InvalidInput("mesh", "no faces", "a surface");
   const double large = extent(mesh);
   if (!(large > kSmallest) || !(large < kLargest))

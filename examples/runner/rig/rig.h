@@ -42,6 +42,9 @@ struct Rig {
   double wind_speed = 0.0;   ///< [m/s]
 };
 
+/// InvalidInput naming an option that is out of range; a curve's name to hold is looked up by make_rig.
+void check(const RigOptions& options);
+
 /// \param mesh     with faces; what is open weighs what the rods do
 /// \param curves   parents first
 /// \param options  InvalidInput naming an option that is out of range
