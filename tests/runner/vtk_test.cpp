@@ -116,12 +116,14 @@ else:
     grid = reader.GetOutput()
     check([grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())])
 )");
+  // Debian's own interpreter, which its packages are for; another may stand before it in the path.
+  const std::string python = "/usr/bin/python3";
   int readers = 0;
   for (const std::string name : {"meshio", "vtkmodules.vtkIOXML"}) {
-    if (std::system(("python3 -c 'import " + name + "' 2>/dev/null").c_str()) != 0) continue;
+    if (std::system((python + " -c 'import " + name + "' >/dev/null 2>&1").c_str()) != 0) continue;
     ++readers;
     const std::string command =
-        "cd '" + run.folder.path().string() + "' && python3 read.py " + name + " > points.bin";
+        "cd '" + run.folder.path().string() + "' && " + python + " read.py " + name + " > points.bin";
     ASSERT_EQ(std::system(command.c_str()), 0) << name;
     const std::string points = bytes_of(run.folder / "points.bin");
     ASSERT_EQ(points.size(), sizeof(Vec3) * frame.points.size()) << name;
