@@ -158,7 +158,7 @@ Trial Study::run(const Setting& setting, double cap, bool patient) const {
   trial.setting = setting;
   const double begin = cpu_seconds();
   try {
-    Simulation simulation(system_, scene::start_state(file_, system_), options_for(file_, setting, patient));
+    Simulation simulation(system_, start_, options_for(file_, setting, patient));
     Tracker tracker(system_, simulation);
     simulation.add(tracker, Simulation::When::output);
     bool cancelled = false;
@@ -192,7 +192,7 @@ double Study::stable_step(Method method) const {
   const auto& [oscillation, decay_limit] = info(method).stability;
   if (chooses_steps(method) || oscillation == 0.0 || !std::isfinite(oscillation)) return 0.0;
   const auto work = system_.make_workspace();
-  const double w = system_.largest_frequency(system_.rest_state(), 32, *work);
+  const double w = system_.largest_frequency(start_, 32, *work);
   double decay = 0.0;
   for (const Rod& rod : system_.scene().rods)
     decay = std::max(decay, rod.mass_damping + rod.viscosity * w * w);

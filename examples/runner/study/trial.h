@@ -64,7 +64,7 @@ class Study {
   /// \param rate  evaluations that count as a second: no clock is asked then, and all is the same on every
   ///              machine
   Study(const scene::SceneFile& file, const System& system, std::optional<double> rate = {})
-      : file_(file), system_(system), rate_(rate) {}
+      : file_(file), system_(system), start_(scene::start_state(file, system)), rate_(rate) {}
 
   std::optional<double> rate() const { return rate_; }
   /// Seconds that its runs took so far, of CPU time or by the rate.
@@ -89,6 +89,7 @@ class Study {
  private:
   const scene::SceneFile& file_;
   const System& system_;
+  State start_;  ///< of every run: an equilibrium is looked for once
   std::optional<double> rate_;
   mutable double spent_ = 0.0;
   std::function<bool(double)> progress_;
