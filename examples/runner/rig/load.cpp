@@ -9,10 +9,9 @@ namespace tendril::runner {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kGravity = 9.81;                 // m/s^2
-constexpr double kAirDensity = 1.2, kDrag = 1.2;  // kg/m^3; of a rod across the wind
-constexpr double kToe = 0.2;                      // of the body's height: what is shorter is no leg
-constexpr double kLegHeight = 0.4;                // of the body's height: what of a curve is leg
+constexpr double kDrag = 1.2;       // of a rod across the wind
+constexpr double kToe = 0.2;        // of the body's height: what is shorter is no leg
+constexpr double kLegHeight = 0.4;  // of the body's height: what of a curve is leg
 
 /// A stretch of a curve as a beam.
 struct Beam {

@@ -5,6 +5,9 @@
 
 namespace tendril::runner {
 
+inline constexpr double kGravity = 9.81;    ///< [m/s^2]
+inline constexpr double kAirDensity = 1.2;  ///< [kg/m^3]
+
 /// Nodes of a curve that are held.
 struct Held {
   std::size_t curve, first, last;

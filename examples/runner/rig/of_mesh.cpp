@@ -54,14 +54,12 @@ void tell(const Rig& rig) {
     nodes += sections.size();
     for (const RigSection& s : sections) unseen += s.seen ? 0 : 1;
   }
-  std::printf("%zu curve-pair(s), %zu nodes; sections measured at %zu, taken from neighbours at %zu\n",
+  std::printf("%zu curve-pair(s), %zu nodes; sections measured at %zu, taken from others at %zu\n",
               rig.curves.size(), nodes, nodes - unseen, unseen);
   std::printf("%s, %.3g kg, %.3g m large%s: a unit of the mesh is %.3g m\n", rig.material.name, rig.mass,
               rig.size, rig.size_given ? "" : " (guessed)", rig.unit);
-  Eigen::Index axis = 0;
-  rig.stance.up.cwiseAbs().maxCoeff(&axis);
-  std::printf("up: %s%c%s; held: %s", rig.stance.up[axis] < 0.0 ? "-" : "", "xyz"[axis],
-              rig.up_guessed ? " (guessed)" : "", rig.held_as.c_str());
+  std::printf("up: %s%s; held: %s", direction_name(rig.stance.up).c_str(), rig.up_guessed ? " (guessed)" : "",
+              rig.held_as.c_str());
   for (const Held& h : rig.held)
     std::printf(" %s[%zu..%zu]", rig.curves[h.curve].name.c_str(), h.first, h.last);
   std::printf("\nslowest limb: %s, a period of about %.3g s; limbs sag by up to %.2g %% of their length\n",

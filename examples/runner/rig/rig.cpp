@@ -111,6 +111,44 @@ Vec3 wind_direction(const std::vector<RigCurve>& curves, const Vec3& up) {
   return length > 0.1 * whole ? Vec3(up.cross(along) / length) : least;
 }
 
+void hold(const RigOptions& options, Rig& rig) {
+  rig.held_as = !options.hold.empty() ? options.hold : rig.stance.feet.empty() ? "middle" : "feet";
+  if (rig.held_as == "middle") {
+    rig.held.push_back(middle(rig.curves[0]));
+    return;
+  }
+  for (const CurveEnd& end : ends_to_hold(rig, rig.held_as))
+    rig.held.push_back(end_nodes(rig.curves, end, rig.stance));
+}
+
+/// And the material, which goes with it.
+void choose_size(const RigOptions& options, double extent, Rig& rig) {
+  rig.material = find_material(options.material.empty() ? "rubber" : options.material);
+  rig.size_given = options.size.has_value();
+  rig.size = options.size.value_or(standing_size(rig, extent));
+  if (options.material.empty() && !rig.size_given && rig.size < kLeastOfRubber) {
+    rig.material = find_material("foam");
+    rig.size = standing_size(rig, extent);
+  }
+  rig.unit = rig.size / extent;
+  rig.load = load_at(rig, rig.unit);
+}
+
+void weigh(Rig& rig) {
+  const double rods = volume_of_rods(rig.curves, rig.body);
+  const double volume = rig.body.volume > 0.0 ? rig.body.volume : rods;
+  const double density = rig.material.density * std::pow(rig.unit, 3);
+  rig.overlap = rods / volume;
+  rig.mass = density * volume;
+  rig.density = density / rig.overlap;
+}
+
+void choose_wind(const RigOptions& options, Rig& rig) {
+  const double push = std::sqrt(kMostSway / rig.load.sway);
+  rig.wind_speed = options.wind.value_or(two_digits_below(std::min(kMostWind, push)));
+  rig.wind = rig.wind_speed / rig.unit * wind_direction(rig.curves, rig.stance.up);
+}
+
 }  // namespace
 
 void check(const RigOptions& options) {
@@ -124,42 +162,21 @@ void check(const RigOptions& options) {
 
 Rig make_rig(const bind::PolygonMesh& mesh, std::vector<RigCurve> curves, const RigOptions& options) {
   check(options);
-  Rig rig;
-  rig.material_given = !options.material.empty();
-  rig.material = find_material(rig.material_given ? options.material : "rubber");
   if (mesh.face_count() == 0) throw InvalidInput("mesh", "no faces", "a surface");
   const double large = extent(mesh);
   if (!(large > kSmallest) || !(large < kLargest))
     throw InvalidInput("mesh", "it is " + shortest(large) + " large", "a largest extent from 1e-60 to 1e60");
+  Rig rig;
   rig.curves = std::move(curves);
   rig.body = measure_body(mesh, rig.curves);
   require_slender(rig);
   rig.up_guessed = options.up.empty();
   rig.stance = rig.up_guessed ? guess_stance(mesh, rig.curves, rig.body)
                               : stand(mesh, rig.curves, rig.body, up_direction(options.up));
-  rig.held_as = !options.hold.empty() ? options.hold : rig.stance.feet.empty() ? "middle" : "feet";
-  if (rig.held_as == "middle") {
-    rig.held.push_back(middle(rig.curves[0]));
-  } else {
-    for (const CurveEnd& end : ends_to_hold(rig, rig.held_as))
-      rig.held.push_back(end_nodes(rig.curves, end, rig.stance));
-  }
-  rig.size_given = options.size.has_value();
-  rig.size = options.size.value_or(standing_size(rig, extent(mesh)));
-  if (!rig.material_given && !rig.size_given && rig.size < kLeastOfRubber) {
-    rig.material = find_material("foam");
-    rig.size = standing_size(rig, extent(mesh));
-  }
-  rig.unit = rig.size / extent(mesh);
-  rig.load = load_at(rig, rig.unit);
-  const double rods = volume_of_rods(rig.curves, rig.body);
-  const double volume = rig.body.volume > 0.0 ? rig.body.volume : rods;
-  rig.overlap = rods / volume;
-  rig.mass = rig.material.density * volume * std::pow(rig.unit, 3);
-  rig.density = rig.material.density * std::pow(rig.unit, 3) / rig.overlap;
-  const double push = std::sqrt(kMostSway / rig.load.sway);
-  rig.wind_speed = options.wind.value_or(two_digits_below(std::min(kMostWind, push)));
-  rig.wind = rig.wind_speed / rig.unit * wind_direction(rig.curves, rig.stance.up);
+  hold(options, rig);
+  choose_size(options, large, rig);
+  weigh(rig);
+  choose_wind(options, rig);
   return rig;
 }
 

@@ -30,7 +30,6 @@ struct Rig {
   std::vector<Held> held;
   std::string held_as;  ///< as RigOptions::hold has it
   NamedMaterial material{};
-  bool material_given = false;
   double size = 1.0;  ///< largest extent [m]
   bool size_given = false;
   double unit = 1.0;     ///< [m]

@@ -9,8 +9,7 @@
 namespace tendril::runner {
 namespace {
 
-constexpr double kAirDensity = 1.2;  // kg/m^3
-constexpr double kPeriods = 4.0;     // of the slowest limb, that the scene lasts
+constexpr double kPeriods = 4.0;  // of the slowest limb, that the scene lasts
 constexpr double kGust = 0.5, kGustFrequency = 0.7;
 
 /// Numbers as short as a reader needs: lengths to a millionth of the mesh, others to three digits.
@@ -100,7 +99,8 @@ std::string curve_text(const Rig& rig, std::size_t k, const Writer& write) {
          ", \"density\": " + Writer::number(rig.density) + "},\n";
   if (unseen > 0)
     out += "      // At " + std::to_string(unseen) +
-           " of its nodes the mesh shows no section of its own: taken from their neighbours.\n";
+           " of its nodes the mesh shows no section of its own: taken from others, or from the body it is "
+           "joined to.\n";
   out += "      \"section\": {\n        \"type\": \"elliptic\",\n        \"a\": " +
          sizes_text(rig.body.sections[k], &RigSection::a) +
          ",\n        \"b\": " + sizes_text(rig.body.sections[k], &RigSection::b) + "\n      },\n";
@@ -108,15 +108,23 @@ std::string curve_text(const Rig& rig, std::size_t k, const Writer& write) {
   return out + anchors_text(rig, k) + "\n    }";
 }
 
-std::string direction_name(const Vec3& up) {
-  Eigen::Index axis = 0;
-  up.cwiseAbs().maxCoeff(&axis);
-  return (up[axis] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis]);
+std::string weight_text(const Rig& rig) {
+  std::string out = "//   weight    " + Writer::number(rig.mass) + " kg, ";
+  if (rig.body.volume == 0.0) return out + "that of the rods, since the mesh is not closed\n";
+  return out + "from the mesh's volume; the rods overlap where they are joined and have " +
+         Writer::number(rig.overlap) + " times it,\n//             so their density is divided by that\n";
+}
+
+/// What stands behind `//` ends with its line.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
 }
 
 std::string heading(const Rig& rig, const std::string& command) {
   const std::string unit = Writer::number(rig.unit);
-  std::string out = "// Made by: " + command + "\n";
+  std::string out = "// Made by: " + on_one_line(command) + "\n";
   out += "// Edit it as you like; what was guessed:\n";
   out += "//   size      " + Writer::number(rig.size) +
          " m along its largest extent, a unit of the mesh is " + unit + " m (--size" +
@@ -124,9 +132,7 @@ std::string heading(const Rig& rig, const std::string& command) {
   out += "//   material  " + std::string(rig.material.name) + ": " + rig.material.what + ", E " +
          Writer::number(rig.material.young) + " Pa, " + Writer::number(rig.material.density) + " kg/m^3, " +
          rig.material.source + " (--material)\n";
-  out += "//   weight    " + Writer::number(rig.mass) +
-         " kg, from the mesh's volume; the rods overlap where they are joined and have " +
-         Writer::number(rig.overlap) + " times it,\n//             so their density is divided by that\n";
+  out += weight_text(rig);
   out += "//   up        " + direction_name(rig.stance.up) + (rig.up_guessed ? ", by its feet (--up)" : "") +
          "\n";
   out += "//   held      " +
@@ -157,7 +163,7 @@ std::string scene_text(const Rig& rig, const std::string& mesh_path, const std::
   for (std::size_t k = 0; k < rig.curves.size(); ++k)
     out += curve_text(rig, k, write) + (k + 1 < rig.curves.size() ? ",\n" : "\n");
   out += "  ],\n  \"forces\": [\n    {\"type\": \"gravity\", \"acceleration\": " +
-         Writer::vector(Vec3(-9.81 / rig.unit * up)) + "}";
+         Writer::vector(Vec3(-kGravity / rig.unit * up)) + "}";
   if (rig.wind_speed > 0.0)
     out += ",\n    // " + Writer::number(rig.wind_speed) +
            " m/s, across the first curve (--wind)\n    {\"type\": \"wind\", \"mean\": " +

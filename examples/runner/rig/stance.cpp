@@ -96,6 +96,12 @@ Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves,
   return out;
 }
 
+std::string direction_name(const Vec3& up) {
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  return (up[axis] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis]);
+}
+
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   const std::pair<Vec3, double> choices[]{{y, 2.5}, {z, 2.0}, {x, 0.0}, {-y, 0.0}, {-z, 0.0}, {-x, 0.0}};

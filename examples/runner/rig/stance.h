@@ -29,4 +29,7 @@ Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves,
 /// feet more than it has, z two, as most meshes have one of these up.
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body);
 
+/// Such a direction as options name it: "y", "-z".
+std::string direction_name(const Vec3& up);
+
 }  // namespace tendril::runner
