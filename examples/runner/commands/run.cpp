@@ -52,11 +52,14 @@ scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phase
   return file;
 }
 
-Report simulate(scene::SceneRun& scene, Recorder& recorder, VtkSeries* series, Progress& progress) {
+Report simulate(scene::SceneRun& scene, Recorder& recorder, VtkSeries* series, Phases& phases,
+                Progress& progress) {
   return scene.run(
       [&](const scene::Snapshot& snapshot) {
         recorder.take(snapshot, scene.mesh());
-        if (series != nullptr) series->take(snapshot);
+        if (series == nullptr) return;
+        const Phases::Timer timer(phases, Phases::write);
+        series->take(snapshot);
       },
       [&](double part) {
         progress.show("simulating", part);
@@ -104,7 +107,7 @@ int run(const Options& options) {
   Recorder recorder(scene.file(), {options.out, !options.no_frames, options.double_precision}, phases);
   std::optional<VtkSeries> series;
   if (options.vtk) series.emplace(scene, options.out);
-  Report report = simulate(scene, recorder, series ? &*series : nullptr, progress);
+  Report report = simulate(scene, recorder, series ? &*series : nullptr, phases, progress);
   if (series) recorder.note(series->finish());
   recorder.write_trajectory();
   if (!options.no_pictures && recorder.taken() > 0 && report.stop != Stop::cancelled) {

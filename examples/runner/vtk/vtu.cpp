@@ -46,29 +46,27 @@ void VtkGrid::add_cell(VtkCell kind, const std::vector<std::uint32_t>& corners) 
   kinds_.push_back(static_cast<std::uint8_t>(kind));
 }
 
-void VtkGrid::add(std::vector<Array>& to, Array array) const {
-  const std::size_t size = array.type == "Float64" ? 8 : 4;
-  const std::size_t count = array.data.size() / size / static_cast<std::size_t>(array.components);
-  if (&to == &point_fields_ && count != points_.size())
+void VtkGrid::add_points_array(Array array, std::size_t count) {
+  if (count != points_.size())
     throw InvalidInput("field '" + array.name + "'", std::to_string(count) + " values",
                        std::to_string(points_.size()) + ", one a point");
-  to.push_back(std::move(array));
+  point_fields_.push_back(std::move(array));
 }
 
 void VtkGrid::add_points_field(const std::string& name, const std::vector<double>& values) {
-  add(point_fields_, {name, "Float64", 1, raw(values.data(), values.size())});
+  add_points_array({name, "Float64", 1, raw(values.data(), values.size())}, values.size());
 }
 
 void VtkGrid::add_points_field(const std::string& name, const std::vector<Vec3>& values) {
-  add(point_fields_, {name, "Float64", 3, raw(values)});
+  add_points_array({name, "Float64", 3, raw(values)}, values.size());
 }
 
 void VtkGrid::add_points_field(const std::string& name, const std::vector<std::int32_t>& values) {
-  add(point_fields_, {name, "Int32", 1, raw(values.data(), values.size())});
+  add_points_array({name, "Int32", 1, raw(values.data(), values.size())}, values.size());
 }
 
 void VtkGrid::add_field(const std::string& name, double value) {
-  add(fields_, {name, "Float64", 1, raw(&value, 1)});
+  fields_.push_back({name, "Float64", 1, raw(&value, 1)});
 }
 
 std::string VtkGrid::bytes() const {

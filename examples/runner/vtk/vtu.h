@@ -36,7 +36,7 @@ class VtkGrid {
     int components;
     std::string data;
   };
-  void add(std::vector<Array>& to, Array array) const;
+  void add_points_array(Array array, std::size_t count);
 
   std::vector<Vec3> points_;
   std::vector<std::int64_t> corners_, ends_;
