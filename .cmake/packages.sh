@@ -7,7 +7,10 @@ test_packages=(libgtest-dev libopenmesh-dev libboost-dev libgmp-dev doxygen)
 scene_packages=(nlohmann-json3-dev libvalijson-dev)
 # What the collision accuracy suite compares with, where it is found.
 accuracy_packages=(pkg-config libfcl-dev libccd-dev libgts-dev libbullet-dev libode-dev)
-runner_packages=("${scene_packages[@]}" libcli11-dev libembree-dev libpng-dev)
+runner_packages=("${scene_packages[@]}" libcli11-dev libembree-dev libpng-dev zlib1g-dev)
+# What the tests of players ask: a browser, and npm, which has other packages where it is not Debian's.
+player_packages=(chromium)
+command -v npm >/dev/null || player_packages+=(nodejs npm)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi

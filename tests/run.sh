@@ -23,7 +23,9 @@ done
 
 . .cmake/packages.sh
 need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}"
+if [[ $labels == *long* ]]; then need_packages "${player_packages[@]}"; fi
 bash .cmake/cgal-meshes.sh build/cgal-meshes
+bash .cmake/npm.sh tests/runner/films build/npm
 export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
 options=(-DTENDRIL_TESTS=ON)
 # One job compiles the benches too, so that they keep up with the library.

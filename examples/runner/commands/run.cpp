@@ -1,8 +1,8 @@
 #include "commands.h"
 #include "commands/mode.h"
+#include "extras/extras.h"
 #include "read/mesh_reader.h"
 #include "rig/of_mesh.h"
-#include "vtk/series.h"
 #include "write/folder.h"
 #include "write/interrupt.h"
 #include "write/progress.h"
@@ -24,7 +24,7 @@ struct Options {
   std::string scene, out, mesh;
   int threads = 0;
   ModeFlags mode;
-  bool vtk = false;
+  ExtraFlags extras;
   bool no_frames = false, no_pictures = false, double_precision = false, json = false;
 };
 
@@ -52,16 +52,16 @@ scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phase
   return file;
 }
 
-Report simulate(scene::SceneRun& scene, Recorder& recorder, VtkSeries* series, Phases& phases,
+Report simulate(scene::SceneRun& scene, Recorder& recorder, Extras& extras, Phases& phases,
                 Progress& progress) {
   return scene.run(
       [&](const scene::Snapshot& snapshot) {
         recorder.take(snapshot, scene.mesh());
-        if (series == nullptr) return;
         const Phases::Timer timer(phases, Phases::write);
-        series->take(snapshot);
+        extras.take(snapshot);
       },
       [&](double part) {
+        extras.note_step();
         progress.show("simulating", part);
         return !Interrupt::requested();
       });
@@ -77,6 +77,11 @@ void draw_pictures(const scene::SceneRun& scene, Recorder& recorder, Report& rep
   if (drawn || report.stop != Stop::finished) return;
   report.stop = Stop::cancelled;
   report.reason = "cancelled while drawing";
+}
+
+/// The scene's name without folders and ending, as films are named.
+std::string stem(const Options& options) {
+  return std::filesystem::path(options.scene).stem().string();
 }
 
 void tell(const Options& options, const std::string& summary, const scene::SceneRun& scene,
@@ -100,23 +105,28 @@ int run(const Options& options) {
   Phases phases;
   bind::PolygonMesh mesh;
   scene::SceneFile file = read_all(options, mesh, phases);
+  bind::PolygonMesh look = options.extras.any_gltf() ? mesh : bind::PolygonMesh{};
   scene::SceneRun scene(std::move(file), std::move(mesh), {.mode = options.mode.mode(), .threads = threads});
   make_folder(options.out);
 
   Progress progress;
   Recorder recorder(scene.file(), {options.out, !options.no_frames, options.double_precision}, phases);
-  std::optional<VtkSeries> series;
-  if (options.vtk) series.emplace(scene, options.out);
-  Report report = simulate(scene, recorder, series ? &*series : nullptr, phases, progress);
-  if (series) recorder.note(series->finish());
+  Extras extras(options.extras, scene, std::move(look), stem(options), recorder, options.out);
+  Report report = simulate(scene, recorder, extras, phases, progress);
   recorder.write_trajectory();
+  {
+    const Phases::Timer timer(phases, Phases::write);
+    extras.finish(report);
+  }
   if (!options.no_pictures && recorder.taken() > 0 && report.stop != Stop::cancelled) {
     draw_pictures(scene, recorder, report, threads, phases, progress);
   }
   phases.take(scene.seconds());
-  const std::string summary = scene::summary_json(scene, report, {recorder.files(), phases.named()});
+  const std::string summary =
+      extras.in(scene::summary_json(scene, report, {recorder.files(), phases.named()}));
   write_file_whole(options.out + "/summary.json", summary + "\n");
   tell(options, summary, scene, phases, report);
+  extras.tell(options.json);
   return report.stop == Stop::finished ? kDone : kNoSuccess;
 }
 
@@ -134,8 +144,7 @@ Command run_command(CLI::App& parent) {
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
   options->mode.add_to(*app);
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
-  app->add_flag("--vtk", options->vtk,
-                "write a time series for ParaView too, run.pvd: mesh, rods and contacts with fields");
+  options->extras.add_to(*app);
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");
   app->add_flag("--json", options->json, "print the summary as JSON");

@@ -1,0 +1,80 @@
+#include "extras/extras.h"
+
+#include "gltf/export.h"
+#include "player/page.h"
+
+#include <tendril/base/error.h>
+
+#include <iostream>
+
+namespace tendril::runner {
+
+void ExtraFlags::add_to(CLI::App& app) {
+  app.add_flag("--vtk", vtk,
+               "write a time series for ParaView too, run.pvd: mesh, rods and contacts with fields");
+  app.add_flag("--gltf", gltf, "write NAME.glb too: glTF 2.0, the mesh on a skin that follows the run");
+  app.add_option("--gltf-tolerance", gltf_tolerance,
+                 "how far that skin may be off, over the mesh's size; more joints where it is small")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--gltf-morph", gltf_morph,
+               "write NAME.glb with a morph target an output instead: exact, and large");
+  app.add_flag("--player", player, "write NAME.html too, a page that plays the run; it needs no server");
+}
+
+Extras::Extras(const ExtraFlags& flags, const scene::SceneRun& run, bind::PolygonMesh look, std::string name,
+               Recorder& recorder, const std::string& folder)
+    : flags_(flags), run_(run), look_(std::move(look)), name_(std::move(name)), recorder_(recorder) {
+  if (flags.any_gltf() && run.mesh() == nullptr)
+    throw InvalidInput(run.file().path, "no mesh for --gltf", "a scene with a mesh");
+  if (flags.vtk) series_.emplace(run, folder);
+  if (flags.any_gltf() || flags.player) film_.emplace(run);
+}
+
+void Extras::take(const scene::Snapshot& snapshot) {
+  if (series_) series_->take(snapshot);
+  if (film_) film_->take(snapshot);
+}
+
+void Extras::finish(const Report& report) {
+  if (series_) recorder_.note(series_->finish());
+  if (!film_ || film_->moments().empty()) return;
+  if (flags_.any_gltf()) write_gltf();
+  if (flags_.player) write_player(report);
+}
+
+void Extras::write_gltf() {
+  const GltfFile file =
+      make_gltf(*film_, look_,
+                {.name = name_, .skin = {.tolerance = flags_.gltf_tolerance}, .morph = flags_.gltf_morph});
+  recorder_.write(name_ + ".glb", file.bytes);
+  gltf_ = file.notes;
+}
+
+void Extras::write_player(const Report& report) {
+  std::string about;
+  if (run_.mesh() != nullptr) about = std::to_string(run_.mesh()->mesh().points.size()) + " vertices, ";
+  about += std::to_string(run_.file().names.size()) + " curve-pairs, " +
+           std::to_string(film_->moments().size()) + " outputs; " + report.method + ", " +
+           std::to_string(report.accepted) + " steps";
+  recorder_.write(name_ + ".html", player_page(*film_, recorder_.camera(), name_, about));
+}
+
+std::string Extras::in(const std::string& summary) const {
+  if (gltf_.is_null()) return summary;
+  OrderedJson out = OrderedJson::parse(summary);
+  out["gltf"] = gltf_;
+  return out.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+void Extras::tell(bool quiet) const {
+  if (!gltf_.contains("joints")) return;
+  if (!quiet)
+    std::cout << name_ << ".glb: " << gltf_["joints"] << " joints, at most " << gltf_["max_error"]
+              << " of the mesh's size from the exact points\n";
+  if (!gltf_["within_tolerance"].get<bool>())
+    std::cerr << "tendril: " << name_ << ".glb: its error is " << gltf_["max_error"]
+              << " of the mesh's size, " << gltf_["tolerance"]
+              << " was asked for and more joints do not help; --gltf-morph is exact\n";
+}
+
+}  // namespace tendril::runner

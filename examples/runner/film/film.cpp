@@ -1,0 +1,57 @@
+#include "film/film.h"
+
+#include <tendril/dynamics/rod_curves.h>
+
+namespace tendril::runner {
+
+namespace {
+
+template <class Contact>
+void add(const std::vector<Contact>& contacts, std::vector<Meeting>& to) {
+  for (const Contact& c : contacts) to.push_back({c.point, c.force});
+}
+
+}  // namespace
+
+Film::Film(const scene::SceneRun& run) : run_(run), work_(run.system().make_workspace()) {
+  const scene::SceneFile& file = run.file();
+  const RodCurves curves(file.scene.rods, file.options.degree, file.options.parametrisation);
+  for (std::size_t k = 0; k < file.scene.rods.size(); ++k)
+    rest_of_all_.push_back(curves.through(k, file.scene.rods[k].p, file.scene.rods[k].q));
+  if (run.mesh() == nullptr) return;
+  mesh_ = run.mesh()->mesh();
+  for (const std::size_t k : file.bound_to) rest_.push_back(rest_of_all_[k]);
+}
+
+void Film::take(const scene::Snapshot& snapshot) {
+  Moment now{snapshot.time,
+             snapshot.pairs,
+             run_.system().energies(run_.simulation().state(), *work_),
+             snapshot.bodies,
+             {}};
+  add(snapshot.contacts, now.meetings);
+  add(snapshot.mesh_contacts, now.meetings);
+  add(snapshot.rod_contacts, now.meetings);
+  moments_.push_back(std::move(now));
+}
+
+void Film::note_step() {
+  const double now = run_.simulation().state().time;
+  const double before = steps_.empty() ? 0.0 : steps_.back().end;
+  if (now > before) steps_.push_back({now, now - before});
+}
+
+std::vector<CurvePair> Film::posed(std::size_t moment) const {
+  std::vector<CurvePair> out;
+  for (const std::size_t k : file().bound_to) out.push_back(moments_[moment].pairs[k]);
+  return out;
+}
+
+std::vector<Vec3> Film::points(std::size_t moment) const {
+  std::vector<Vec3> out(mesh_.points.size());
+  binding().update(posed(moment), out);
+  for (const std::size_t i : still()) out[i] = mesh_.points[i];
+  return out;
+}
+
+}  // namespace tendril::runner
