@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12), builds the program, makes a scene of a mesh and runs it.
-#   examples/run.sh           writes out/ and prints where the pictures are
+#   examples/run.sh           writes out/ and prints where the pictures and the player are
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . .cmake/packages.sh
@@ -11,9 +11,11 @@ if [ -f build/CMakeCache.txt ]; then cmake --preset release -Wno-dev; else cmake
 cmake --build --preset release --target tendril
 mkdir -p out
 build/bin/tendril rig build/cgal-meshes/diplodocus.off --size 1.5 --wind 12 --out out/scene.json --picture out/rig.png </dev/null
-build/bin/tendril run out/scene.json --out out </dev/null
+build/bin/tendril run out/scene.json --out out --player </dev/null
 
 pictures=$(find out -name '*.png' | sort)
 [ -n "$pictures" ] || { echo "the run wrote no picture into out/" >&2; exit 1; }
 echo "pictures:"
 while read -r picture; do echo "  $PWD/$picture"; done <<<"$pictures"
+echo "to play in a browser:"
+echo "  $PWD/out/scene.html"

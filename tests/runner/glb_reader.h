@@ -36,6 +36,7 @@ class GlbReader {
     static const std::map<std::string, std::size_t> sizes{
         {"SCALAR", 1}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
     const std::size_t count = accessor.at("count").get<std::size_t>() * sizes.at(accessor.at("type"));
+    EXPECT_EQ(view.at("byteOffset").get<std::size_t>() % 4, 0u);
     const char* at = buffer_.data() + view.at("byteOffset").get<std::size_t>();
     const int type = accessor.at("componentType");
     std::vector<double> out;

@@ -122,6 +122,26 @@ TEST(Gltf, SaysSoWhereJointsDoNotReachTheTolerance) {
   EXPECT_NE(bytes_of(shown.folder / "stderr.txt").find("s.glb: its error is"), std::string::npos);
 }
 
+TEST(Gltf, RotationsGoTheShortWayFromKeyToKey) {
+  Json scene = bending();  // wound up by more than half a turn
+  scene["forces"] = Json::array(
+      {{{"type", "torque"}, {"curve_pair", "stem"}, {"node", -1}, {"direction", {0, 1, 0}}, {"signal", 6}}});
+  const Shown shown(scene, "--gltf");
+  double least = 1.0;
+  const Json& animation = shown.glb.json["animations"][0];
+  for (const Json& channel : animation["channels"]) {
+    if (channel["target"]["path"] != "rotation") continue;
+    const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+    const std::vector<double> keys = shown.glb.numbers(sampler["output"]);
+    for (std::size_t i = 4; i < keys.size(); i += 4) {
+      const Eigen::Map<const Eigen::Vector4d> a(keys.data() + i - 4), b(keys.data() + i);
+      EXPECT_GE(a.dot(b), 0.0);
+      least = std::min(least, b.w());
+    }
+  }
+  EXPECT_LT(least, 0.0);  // as no quaternion is that is taken from a matrix alone
+}
+
 TEST(Gltf, WhatIsOutOfReachStays) {
   Json scene = bending();
   scene["curve_pairs"][0]["reach"] = {1.0, 0.1, 0.1};

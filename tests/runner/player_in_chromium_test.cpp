@@ -43,7 +43,7 @@ double shader_error(const Folder& folder, const std::string& name, std::size_t m
   for (const Vec3& p : rest) low = low.cwiseMin(p), high = high.cwiseMax(p);
   double worst = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const Vec3 now(seen[4 * i], seen[4 * i + 1], seen[4 * i + 2]);
+    const Vec3 now = Eigen::Map<const Eigen::Vector3f>(seen.data() + 4 * i).cast<double>();
     worst = std::max(worst, (now - (exact[i] - 0.5 * (low + high)) / (high - low).norm()).norm());
   }
   return worst;

@@ -8,6 +8,13 @@
 #include <iostream>
 
 namespace tendril::runner {
+namespace {
+
+std::string counted(std::size_t count, const char* things, const char* thing) {
+  return std::to_string(count) + " " + (count == 1 ? thing : things);
+}
+
+}  // namespace
 
 void ExtraFlags::add_to(CLI::App& app) {
   app.add_flag("--vtk", vtk,
@@ -52,10 +59,10 @@ void Extras::write_gltf() {
 
 void Extras::write_player(const Report& report) {
   std::string about;
-  if (run_.mesh() != nullptr) about = std::to_string(run_.mesh()->mesh().points.size()) + " vertices, ";
-  about += std::to_string(run_.file().names.size()) + " curve-pairs, " +
-           std::to_string(film_->moments().size()) + " outputs; " + report.method + ", " +
-           std::to_string(report.accepted) + " steps";
+  if (run_.mesh() != nullptr) about = counted(run_.mesh()->mesh().points.size(), "vertices", "vertex") + ", ";
+  about += counted(run_.file().names.size(), "curve-pairs", "curve-pair") + ", " +
+           counted(film_->moments().size(), "outputs", "output") + "; " + report.method + ", " +
+           counted(static_cast<std::size_t>(report.accepted), "steps", "step");
   recorder_.write(name_ + ".html", player_page(*film_, recorder_.camera(), name_, about));
 }
 

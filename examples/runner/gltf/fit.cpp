@@ -86,7 +86,8 @@ std::vector<SkinJoint> SkinFit::place(double tolerance, std::size_t max_joints) 
   return out;
 }
 
-std::vector<SkinJoint> SkinFit::place_within(double tolerance, std::size_t max_joints) const {
+/// The tolerance is raised until there are no more joints than allowed.
+std::vector<SkinJoint> SkinFit::place_within(double& tolerance, std::size_t max_joints) const {
   std::vector<SkinJoint> out = place(tolerance, max_joints);
   while (out.size() > max_joints) out = place(tolerance *= 1.5, max_joints);
   return out;
@@ -128,32 +129,58 @@ double SkinFit::error_of(const Rig& rig, std::size_t point, const Influences& in
   return worst;
 }
 
-Influences SkinFit::best_four(const Rig& rig, std::size_t blended) const {
-  std::vector<std::uint16_t> near;
+/// The joints beside the places that a point is bound to.
+std::vector<std::uint16_t> SkinFit::near(const Rig& rig, std::size_t blended) const {
+  std::vector<std::uint16_t> out;
   for (const bind::Share& share : shares_[blended]) {
     const Influences two = beside(rig, share.pair, share.record.t);
     for (std::size_t k = 0; k < 4; ++k)
-      if (two.weight[k] > 0.0) near.push_back(two.joint[k]);
+      if (two.weight[k] > 0.0) out.push_back(two.joint[k]);
   }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  const std::size_t point = blended_[blended], moments = posed_.size();
-  Eigen::MatrixXd off(static_cast<Eigen::Index>(3 * moments), static_cast<Eigen::Index>(near.size()));
-  for (std::size_t c = 0; c < near.size(); ++c)
-    for (std::size_t m = 0; m < moments; ++m)
-      off.col(static_cast<Eigen::Index>(c)).segment<3>(static_cast<Eigen::Index>(3 * m)) =
-          rig.motions[near[c]][m](film_.mesh().points[point]) - exact_[point * moments + m];
-  Influences out;
-  for (const auto& [column, weight] : convex_weights(off.transpose() * off, 4)) out.add(near[column], weight);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
-std::vector<Influences> SkinFit::weigh(const Rig& rig) const {
+/// By least squares; where that leaves a moment too far off, with the moments weighted by how far off they
+/// are, again and again, which tends to the least largest distance [Lawson 1961].
+Influences SkinFit::best_four(const Rig& rig, std::size_t blended, double tolerance) const {
+  constexpr int kRounds = 8;
+  const std::vector<std::uint16_t> joints = near(rig, blended);
+  const std::size_t point = blended_[blended], moments = posed_.size();
+  Eigen::MatrixXd off(static_cast<Eigen::Index>(3 * moments), static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t c = 0; c < joints.size(); ++c)
+    for (std::size_t m = 0; m < moments; ++m)
+      off.col(static_cast<Eigen::Index>(c)).segment<3>(static_cast<Eigen::Index>(3 * m)) =
+          rig.motions[joints[c]][m](film_.mesh().points[point]) - exact_[point * moments + m];
+  Influences best;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd weight = Eigen::VectorXd::Constant(off.rows(), 1.0);
+  for (int round = 0; round < kRounds && least > tolerance; ++round) {
+    Influences now;
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(off.rows());
+    for (const auto& [column, part] : convex_weights(off.transpose() * weight.asDiagonal() * off, 4)) {
+      now.add(joints[column], part);
+      left += part * off.col(static_cast<Eigen::Index>(column));
+    }
+    double worst = 0.0;
+    for (Eigen::Index m = 0; m < left.size(); m += 3) {
+      const double distance = left.segment<3>(m).norm();
+      worst = std::max(worst, distance);
+      weight.segment<3>(m) *= distance;
+    }
+    if (worst < least) least = worst, best = now;
+    weight /= std::max(weight.maxCoeff(), std::numeric_limits<double>::min());
+  }
+  return best;
+}
+
+std::vector<Influences> SkinFit::weigh(const Rig& rig, double tolerance) const {
   std::vector<Influences> out(film_.mesh().points.size());
   const auto records = film_.binding().records();
   for (std::uint32_t pair = 0; pair < alone_.size(); ++pair)
     for (const std::uint32_t i : alone_[pair]) out[i] = beside(rig, pair, records[i].t);
-  for (std::size_t b = 0; b < blended_.size(); ++b) out[blended_[b]] = best_four(rig, b);
+  for (std::size_t b = 0; b < blended_.size(); ++b) out[blended_[b]] = best_four(rig, b, tolerance);
   for (const std::size_t i : film_.still()) out[i].add(rig.joints.size() - 1, 1.0);
   return out;
 }
@@ -188,17 +215,18 @@ std::vector<SkinJoint> SkinFit::added(const Rig& rig, const std::vector<double>&
 Skin SkinFit::skin(double tolerance, std::size_t max_joints) const {
   constexpr int kPatience = 3;
   constexpr double kHelps = 0.95;
-  Rig now = rig(place_within(tolerance, max_joints));
+  double placed = tolerance;
+  Rig now = rig(place_within(placed, max_joints));
   Skin best;
   double least = std::numeric_limits<double>::infinity();
   for (int idle = 0; idle < kPatience; ++idle) {
-    const std::vector<Influences> influences = weigh(now);
+    const std::vector<Influences> influences = weigh(now, tolerance);
     std::vector<double> errors;
     for (const std::uint32_t i : blended_) errors.push_back(error_of(now, i, influences[i]));
     const double worst = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
     if (worst < kHelps * least || worst <= tolerance) {
       least = worst, idle = 0;
-      best = {now.joints, influences};
+      best = {now.joints, influences, 0.0, worst <= tolerance && placed <= tolerance};
     }
     if (worst <= tolerance) break;
     std::vector<SkinJoint> more = added(now, errors, tolerance, max_joints - now.joints.size());

@@ -9,7 +9,7 @@ class SkinFit {
  public:
   SkinFit(const Film& film, std::span<const std::size_t> moments);
 
-  /// The error is left to the caller.
+  /// Its error is left to the caller; `reached` says whether it is within the tolerance at these moments.
   /// \param tolerance   [length]
   /// \param max_joints  at least two a curve-pair and one more
   Skin skin(double tolerance, std::size_t max_joints) const;
@@ -27,12 +27,13 @@ class SkinFit {
   bool serves(const SkinJoint& from, const Motions& a, double to, double tolerance) const;
   double farthest(const SkinJoint& from, double tolerance) const;
   std::vector<SkinJoint> place(double tolerance, std::size_t max_joints) const;
-  std::vector<SkinJoint> place_within(double tolerance, std::size_t max_joints) const;
+  std::vector<SkinJoint> place_within(double& tolerance, std::size_t max_joints) const;
   Rig rig(std::vector<SkinJoint> joints) const;
   static Influences beside(const Rig& rig, std::uint32_t pair, double t);
-  Influences best_four(const Rig& rig, std::size_t blended) const;
+  std::vector<std::uint16_t> near(const Rig& rig, std::size_t blended) const;
+  Influences best_four(const Rig& rig, std::size_t blended, double tolerance) const;
   double error_of(const Rig& rig, std::size_t point, const Influences& influences) const;
-  std::vector<Influences> weigh(const Rig& rig) const;
+  std::vector<Influences> weigh(const Rig& rig, double tolerance) const;
   std::vector<SkinJoint> added(const Rig& rig, const std::vector<double>& errors, double tolerance,
                                std::size_t room) const;
 

@@ -7,12 +7,6 @@
 namespace tendril::runner {
 namespace {
 
-/// The worst of all moments.
-struct Worst {
-  double error = 0.0;
-  std::size_t moment = 0;
-};
-
 double error_at(const Film& film, std::size_t moment, const Skin& skin) {
   const std::vector<CurvePair> posed = film.posed(moment);
   std::vector<JointMotion> motions;
@@ -29,13 +23,22 @@ double error_at(const Film& film, std::size_t moment, const Skin& skin) {
   return worst;
 }
 
-Worst worst_of(const Film& film, const Skin& skin) {
-  Worst out;
-  for (std::size_t m = 0; m < film.moments().size(); ++m) {
-    const double error = error_at(film, m, skin);
-    if (error > out.error) out = {error, m};
-  }
+std::vector<double> errors_of(const Film& film, const Skin& skin) {
+  std::vector<double> out;
+  for (std::size_t m = 0; m < film.moments().size(); ++m) out.push_back(error_at(film, m, skin));
   return out;
+}
+
+/// Adds the worst of the moments that are too far off and not looked at yet; whether there are any.
+bool look_at_worst(const std::vector<double>& errors, double tolerance, std::vector<std::size_t>& moments) {
+  constexpr std::size_t kMore = 4;
+  std::vector<std::pair<double, std::size_t>> worst;
+  for (std::size_t m = 0; m < errors.size(); ++m)
+    if (errors[m] > tolerance && std::find(moments.begin(), moments.end(), m) == moments.end())
+      worst.emplace_back(errors[m], m);
+  std::sort(worst.rbegin(), worst.rend());
+  for (std::size_t k = 0; k < std::min(kMore, worst.size()); ++k) moments.push_back(worst[k].second);
+  return !worst.empty();
 }
 
 std::vector<std::size_t> spread_moments(std::size_t count, std::size_t wanted) {
@@ -66,21 +69,23 @@ void Influences::add(std::size_t to, double part) {
 
 Skin fit_skin(const Film& film, const SkinOptions& options) {
   constexpr std::size_t kMoments = 16, kRounds = 8;
-  constexpr double kRoom = 0.97;  // of the tolerance, at the moments that are looked at
+  constexpr double kRoom = 0.98;  // of the tolerance is used at the moments looked at, less each time
   const double size = bind::bounding_diagonal(film.mesh().points);
-  const double tolerance = options.tolerance * size;
+  const double unit = size > 0.0 ? size : 1.0, tolerance = options.tolerance * unit;
+  const std::size_t max_joints = std::max(options.max_joints, 2 * film.rest().size() + 1);
   std::vector<std::size_t> moments = spread_moments(film.moments().size(), kMoments);
-  Skin skin;
+  Skin best;
+  double room = tolerance;
   for (std::size_t round = 0; round < kRounds; ++round) {
-    const SkinFit fit(film, moments);
-    skin = fit.skin(kRoom * tolerance, std::max(options.max_joints, 2 * film.rest().size() + 1));
-    const Worst worst = worst_of(film, skin);
-    skin.error = size > 0.0 ? worst.error / size : 0.0;
+    Skin skin = SkinFit(film, moments).skin(room *= kRoom, max_joints);
+    const bool all_that_joints_do = !skin.reached;
+    const std::vector<double> errors = errors_of(film, skin);
+    skin.error = *std::max_element(errors.begin(), errors.end()) / unit;
     skin.reached = skin.error <= options.tolerance;
-    if (skin.reached || std::find(moments.begin(), moments.end(), worst.moment) != moments.end()) break;
-    moments.push_back(worst.moment);
+    if (round == 0 || skin.error < best.error) best = std::move(skin);
+    if (best.reached || all_that_joints_do || !look_at_worst(errors, tolerance, moments)) break;
   }
-  return skin;
+  return best;
 }
 
 }  // namespace tendril::runner

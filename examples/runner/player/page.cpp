@@ -271,7 +271,7 @@ class Writer {
   void add_view() {
     const Camera& c = camera_;
     json_["view"] = {{"eye", json_of(place_(c.eye))},
-                     {"target", json_of(place_(c.centre))},
+                     {"target", json_of(place_(c.eye + c.forward * c.forward.dot(c.centre - c.eye)))},
                      {"up", json_of(c.ground_up)},
                      {"ground", (c.ground - c.ground_up.dot(place_.middle)) / place_.size},
                      {"lamp", json_of(1.2 * c.ground_up - 0.5 * c.right - 0.55 * c.forward)}};

@@ -43,9 +43,10 @@ async function play(page) {
 async function picture(page, name, last) {
   await page.evaluate(async k => (await window.tendril).show(k), Math.floor(last / 2));
   const inputs = await page.locator('#switches input').all();
+  const first = await Promise.all(inputs.map(input => input.isChecked()));
   for (const input of inputs) await input.check();
   await page.screenshot({path: `${out}/${name}_all.png`});
-  for (const input of inputs) await input.setChecked(/mesh|contacts/.test(await input.getAttribute('id')));
+  for (const [k, input] of inputs.entries()) await input.setChecked(first[k]);
   await page.screenshot({path: `${out}/${name}_light.png`});
   await page.emulateMedia({colorScheme: 'dark'});
   await page.evaluate(async k => (await window.tendril).show(k), Math.floor(last / 2));

@@ -112,7 +112,7 @@ async function main() {
   return {
     film, last, play, show: to => { play(false); moment = to; render(); },
     get moment() { return moment; }, get playing() { return playing; },
-    points: () => Array.from(scene.mesh.read()),
+    points: () => scene.mesh ? Array.from(scene.mesh.read()) : [],
   };
 }
 

@@ -64,8 +64,9 @@ class StepPlot extends Plot {
   draw(time) {
     const context = this.begin(), {at, step} = this.film.steps;
     if (step.length > 0) {
-      const low = Math.log(Math.min(...step)), high = Math.log(Math.max(...step)), room = high - low;
-      const y = h => this.height - 5 - (this.height - 22) * (room > 0 ? (Math.log(h) - low) / room : 0.5);
+      const low = Math.log(Math.min(...step)), high = Math.log(Math.max(...step));
+      const room = Math.max(high - low, Math.log(4)), middle = 0.5 * (low + high);
+      const y = h => this.height - 5 - (this.height - 22) * (0.5 + (Math.log(h) - middle) / room);
       this.line(context, step.flatMap((h, k) => [[this.x(k > 0 ? at[k - 1] : this.from), y(h)], [this.x(at[k]), y(h)]]), '--violet', 1.2);
       this.label(context, `step size, ${short(Math.exp(low))} to ${short(Math.exp(high))}, logarithmic`, 11);
     }

@@ -88,17 +88,25 @@ class Scene {
       return 0.5 * ((1 - part) * width[k - 1] + part * width[k]);
     };
     let rings = 0;
-    this.along(pair, (span, s) => {
-      const f = this.spans.frame(span, s), {from, to} = this.spans.list[span], r = radius(from + (to - from) * s);
+    const ring = (f, r, end) => {
       for (let k = 0; k < kSides; ++k) {
         const a = 2 * Math.PI * k / kSides, n = f.lx.map((x, c) => Math.cos(a) * x + Math.sin(a) * f.ly[c]);
         points.push(...f.origin.map((x, c) => x + r * n[c]));
-        facing.push(...n);
+        facing.push(...(end ? f.lz.map(x => end * x) : n));
         const next = (k + 1) % kSides, at = kSides * (rings - 1);
         if (rings > 0) index.push(at + k, at + next, at + kSides + k, at + next, at + kSides + next, at + kSides + k);
       }
       ++rings;
+    };
+    const {first, count} = this.spans.of[pair], start = this.spans.frame(first, 0), stop = this.spans.frame(first + count - 1, 1);
+    ring(start, 0, -1);
+    ring(start, radius(nodes[0]), -1);
+    this.along(pair, (span, s) => {
+      const {from, to} = this.spans.list[span];
+      ring(this.spans.frame(span, s), radius(from + (to - from) * s), 0);
     });
+    ring(stop, radius(nodes[nodes.length - 1]), 1);
+    ring(stop, 0, 1);
     const paint = kPalette[pair % kPalette.length].map(x => Math.round(255 * (0.35 * x + 0.55)));
     return new Shape(this.gl, plainVertex, [['place', Float32Array.from(points), 3], ['facing', Float32Array.from(facing), 3],
       ['paint', Uint8Array.from({length: points.length / 3 * 4}, (_, k) => k % 4 < 3 ? paint[k % 4] : 255), 4]], Uint32Array.from(index));
@@ -112,10 +120,12 @@ class Scene {
       if (shown.pairs) {
         let last = null;
         this.along(p, (span, s) => {
-          const f = this.spans.frame(span, s), side = f.origin.map((x, k) => x + f.offset[k]);
+          // Of the orientation curve only the direction matters: it is drawn no farther off than frames are long.
+          const f = this.spans.frame(span, s), reach = Math.min(1, 0.03 / Math.hypot(...f.offset));
+          const side = f.origin.map((x, k) => x + reach * f.offset[k]);
           if (last) {
             lines.add(last[0], f.origin, [...color, 1], 1.6 * ratio);
-            lines.add(last[1], side, [...color, 0.45], 1 * ratio);
+            lines.add(last[1], side, [...color.map(x => 0.5 * x + 0.3), 1], 0.8 * ratio);
           }
           last = [f.origin, side];
         });
