@@ -25,6 +25,7 @@ struct Options {
   int threads = 0;
   ModeFlags mode;
   ExtraFlags extras;
+  bool mark_ambiguous = false;
   bool no_frames = false, no_pictures = false, double_precision = false, json = false;
 };
 
@@ -67,13 +68,16 @@ Report simulate(scene::SceneRun& scene, Recorder& recorder, Extras& extras, Phas
       });
 }
 
-void draw_pictures(const scene::SceneRun& scene, Recorder& recorder, Report& report, int threads,
-                   Phases& phases, Progress& progress) {
+void draw_all(const Options& options, const scene::SceneRun& scene, Recorder& recorder, Extras& extras,
+              Report& report, Phases& phases, Progress& progress) {
   const Phases::Timer timer(phases, Phases::draw);
-  const bool drawn = draw_run(scene, recorder, threads, [&](double part) {
+  const PictureOptions how{thread_count(options.threads), options.mark_ambiguous};
+  const auto go_on = [&](double part) {
     progress.show("drawing", part);
     return !Interrupt::requested();
-  });
+  };
+  const bool drawn =
+      (options.no_pictures || draw_run(scene, recorder, how, go_on)) && extras.draw_film(how, go_on);
   if (drawn || report.stop != Stop::finished) return;
   report.stop = Stop::cancelled;
   report.reason = "cancelled while drawing";
@@ -118,8 +122,8 @@ int run(const Options& options) {
     const Phases::Timer timer(phases, Phases::write);
     extras.finish(report);
   }
-  if (!options.no_pictures && recorder.taken() > 0 && report.stop != Stop::cancelled) {
-    draw_pictures(scene, recorder, report, threads, phases, progress);
+  if (recorder.taken() > 0 && report.stop != Stop::cancelled) {
+    draw_all(options, scene, recorder, extras, report, phases, progress);
   }
   phases.take(scene.seconds());
   const std::string summary =
@@ -146,6 +150,8 @@ Command run_command(CLI::App& parent) {
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
   options->extras.add_to(*app);
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
+  app->add_flag("--mark-ambiguous", options->mark_ambiguous,
+                "in pictures, color the points of the mesh that are bound to several places of the axes");
   app->add_flag("--double", options->double_precision, "frames in double instead of single precision");
   app->add_flag("--json", options->json, "print the summary as JSON");
   return {app, [options] { return run(*options); }};

@@ -99,7 +99,7 @@ std::vector<std::string> write_state(const Options& options, scene::SceneFile fi
   recorder.write_trajectory();
   if (!options.no_pictures) {
     const Phases::Timer timer(phases, Phases::draw);
-    draw_run(run, recorder, threads, [](double) { return !Interrupt::requested(); });
+    draw_run(run, recorder, {.threads = threads}, [](double) { return !Interrupt::requested(); });
   }
   phases.take(run.seconds());
   return recorder.files();

@@ -1,9 +1,11 @@
 #include "extras/extras.h"
 
+#include "film/apng.h"
 #include "gltf/export.h"
 #include "player/page.h"
 
 #include <tendril/base/error.h>
+#include <tendril/base/file.h>
 
 #include <iostream>
 
@@ -25,6 +27,7 @@ void ExtraFlags::add_to(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   app.add_flag("--gltf-morph", gltf_morph,
                "write NAME.glb with a morph target an output instead: exact, and large");
+  app.add_option("--film", film, "draw every output into this file, a picture that moves (APNG)");
   app.add_flag("--player", player, "write NAME.html too, a page that plays the run; it needs no server");
 }
 
@@ -33,8 +36,10 @@ Extras::Extras(const ExtraFlags& flags, const scene::SceneRun& run, bind::Polygo
     : flags_(flags), run_(run), look_(std::move(look)), name_(std::move(name)), recorder_(recorder) {
   if (flags.any_gltf() && run.mesh() == nullptr)
     throw InvalidInput(run.file().path, "no mesh for --gltf", "a scene with a mesh");
+  if (!flags.film.empty() && !flags.film.ends_with(".apng") && !flags.film.ends_with(".png"))
+    throw InvalidInput("--film", "'" + flags.film + "'", "a name that ends in .apng or .png");
   if (flags.vtk) series_.emplace(run, folder);
-  if (flags.any_gltf() || flags.player) film_.emplace(run);
+  if (flags.any_gltf() || flags.player || !flags.film.empty()) film_.emplace(run);
 }
 
 void Extras::take(const scene::Snapshot& snapshot) {
@@ -64,6 +69,16 @@ void Extras::write_player(const Report& report) {
            counted(film_->moments().size(), "outputs", "output") + "; " + report.method + ", " +
            counted(static_cast<std::size_t>(report.accepted), "steps", "step");
   recorder_.write(name_ + ".html", player_page(*film_, recorder_.camera(), name_, about));
+}
+
+bool Extras::draw_film(const PictureOptions& options, const std::function<bool(double)>& go_on) {
+  if (flags_.film.empty() || film_->moments().empty()) return true;
+  const auto moment = [&](std::size_t m) { return film_->snapshot(m); };
+  const std::vector<std::string> pngs =
+      draw_moments(run_, recorder_, film_->moments().size(), moment, options, go_on);
+  if (pngs.empty()) return false;
+  write_file_whole(flags_.film, apng_bytes(pngs, film_->seconds()));
+  return true;
 }
 
 std::string Extras::in(const std::string& summary) const {

@@ -4,6 +4,7 @@
 #include "vtk/series.h"
 #include "write/json_output.h"
 #include "write/recorder.h"
+#include "write/run_pictures.h"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -14,6 +15,7 @@ namespace tendril::runner {
 struct ExtraFlags {
   bool vtk = false, gltf = false, gltf_morph = false, player = false;
   double gltf_tolerance = 1e-3;
+  std::string film;  ///< path of a picture that moves; empty for none
 
   void add_to(CLI::App& app);
   bool any_gltf() const { return gltf || gltf_morph; }
@@ -35,6 +37,8 @@ class Extras {
     if (film_) film_->note_step();
   }
   void finish(const Report& report);
+  /// Draws the film where one is asked for; false when `go_on` said no.
+  bool draw_film(const PictureOptions& options, const std::function<bool(double part)>& go_on);
 
   /// The summary with what is to be said of the files.
   std::string in(const std::string& summary) const;

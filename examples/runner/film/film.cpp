@@ -2,6 +2,9 @@
 
 #include <tendril/dynamics/rod_curves.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace tendril::runner {
 
 namespace {
@@ -24,11 +27,9 @@ Film::Film(const scene::SceneRun& run) : run_(run), work_(run.system().make_work
 }
 
 void Film::take(const scene::Snapshot& snapshot) {
-  Moment now{snapshot.time,
-             snapshot.pairs,
-             run_.system().energies(run_.simulation().state(), *work_),
-             snapshot.bodies,
-             {}};
+  Moment now{snapshot.time,   snapshot.pairs,
+             snapshot.masses, run_.system().energies(run_.simulation().state(), *work_),
+             snapshot.bodies, {}};
   add(snapshot.contacts, now.meetings);
   add(snapshot.mesh_contacts, now.meetings);
   add(snapshot.rod_contacts, now.meetings);
@@ -39,6 +40,28 @@ void Film::note_step() {
   const double now = run_.simulation().state().time;
   const double before = steps_.empty() ? 0.0 : steps_.back().end;
   if (now > before) steps_.push_back({now, now - before});
+}
+
+scene::Snapshot Film::snapshot(std::size_t moment) const {
+  const Moment& m = moments_[moment];
+  std::vector<Vec3> points;
+  if (run_.mesh() != nullptr) points = this->points(moment);
+  return {m.time, std::move(points), m.pairs, m.masses, {}, m.bodies};
+}
+
+double Film::pace() const {
+  constexpr double kShortest = 1.0, kLongest = 30.0, kElse = 5.0;  // seconds
+  const double duration = moments_.back().time - moments_.front().time;
+  if (duration >= kShortest && duration <= kLongest) return 1.0;
+  return std::max(duration, std::numeric_limits<double>::min()) / kElse;
+}
+
+std::vector<double> Film::seconds() const {
+  std::vector<double> out;
+  for (std::size_t m = 0; m + 1 < moments_.size(); ++m)
+    out.push_back((moments_[m + 1].time - moments_[m].time) / pace());
+  out.push_back(out.empty() ? 1.0 : out.back());
+  return out;
 }
 
 std::vector<CurvePair> Film::posed(std::size_t moment) const {

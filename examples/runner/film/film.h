@@ -11,11 +11,12 @@ struct Meeting {
 
 /// What moves, at one output of a run.
 struct Moment {
-  double time;                           ///< of the scene
-  std::vector<CurvePair> pairs;          ///< all of them
-  Energies energies;                     ///< of the scene
-  std::vector<scene::SolidPose> bodies;  ///< of its solids
-  std::vector<Meeting> meetings;         ///< of all kinds
+  double time;                            ///< of the scene
+  std::vector<CurvePair> pairs;           ///< all of them
+  std::vector<std::vector<Vec3>> masses;  ///< on them
+  Energies energies;                      ///< of the scene
+  std::vector<scene::SolidPose> bodies;   ///< of its solids
+  std::vector<Meeting> meetings;          ///< of all kinds
 };
 
 /// An accepted step.
@@ -36,6 +37,14 @@ class Film {
 
   const scene::SceneFile& file() const { return run_.file(); }
   const std::vector<Moment>& moments() const { return moments_; }
+
+  /// The moment as it was taken, but for what is known of contacts.
+  scene::Snapshot snapshot(std::size_t moment) const;
+  /// The time of the scene that goes by in a second of watching: 1, where the run is neither too short nor
+  /// too long for that.
+  double pace() const;
+  /// How long each moment is watched, at that pace.
+  std::vector<double> seconds() const;
 
   const std::vector<Step>& steps() const { return steps_; }
   /// All curve-pairs at rest.

@@ -226,7 +226,7 @@ class Writer {
       json_["energies"]["total"].push_back(m.energies.total());
     }
     const double duration = film_.moments().back().time - film_.moments().front().time;
-    json_["pace"] = duration < 1.0 || duration > 30.0 ? std::max(duration, 1e-300) / 5.0 : 1.0;
+    json_["pace"] = film_.pace();
     json_["digits"] =
         std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(duration, 1e-6)))), 0, 8);
     const auto unit = film_.file().units.find("time");

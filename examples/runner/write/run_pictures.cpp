@@ -12,11 +12,17 @@ namespace {
 
 constexpr double kThinnest = 0.003;  // radius of a line over the size of what is seen
 
+constexpr bind::Color kMark{201, 74, 40, 255};
+
 class Painter {
  public:
-  Painter(const scene::SceneRun& run, const Camera& camera, int threads)
-      : run_(run), file_(run.file()), camera_(camera), threads_(threads) {
-    if (run.mesh() != nullptr) mesh_ = run.mesh()->mesh();
+  Painter(const scene::SceneRun& run, const Camera& camera, const PictureOptions& options)
+      : run_(run), file_(run.file()), camera_(camera), threads_(options.threads) {
+    if (run.mesh() == nullptr) return;
+    mesh_ = run.mesh()->mesh();
+    if (!options.mark_ambiguous) return;
+    mesh_ = colored(std::move(mesh_));
+    for (const std::uint32_t i : run.mesh()->binding().report().ambiguous) mesh_.point_colors[i] = kMark;
   }
 
   Picture paint(const scene::Snapshot& moment, const scene::ViewOptions& view) {
@@ -67,15 +73,19 @@ std::string caption(double time) {
   return text;
 }
 
+scene::ViewOptions panel_view(scene::ViewOptions view) {
+  view.width = std::max(16, view.width / 2);
+  view.height = std::max(16, view.height / 2);
+  return view;
+}
+
 }  // namespace
 
-bool draw_run(const scene::SceneRun& run, Recorder& recorder, int threads,
+bool draw_run(const scene::SceneRun& run, Recorder& recorder, const PictureOptions& options,
               const std::function<bool(double)>& go_on) {
   const scene::ViewOptions& view = run.file().view;
-  Painter painter(run, recorder.camera(), threads);
-  scene::ViewOptions small = view;
-  small.width = std::max(16, view.width / 2);
-  small.height = std::max(16, view.height / 2);
+  Painter painter(run, recorder.camera(), options);
+  const scene::ViewOptions small = panel_view(view);
   const auto& moments = recorder.panels();
   std::vector<Picture> panels;
   std::vector<std::string> captions;
@@ -90,6 +100,19 @@ bool draw_run(const scene::SceneRun& run, Recorder& recorder, int threads,
   recorder.write("contact_sheet.png", png_bytes(contact_sheet(panels, captions, columns)));
   recorder.write("final.png", png_bytes(last));
   return true;
+}
+
+std::vector<std::string> draw_moments(const scene::SceneRun& run, const Recorder& recorder, std::size_t count,
+                                      const std::function<scene::Snapshot(std::size_t)>& moment,
+                                      const PictureOptions& options,
+                                      const std::function<bool(double part)>& go_on) {
+  Painter painter(run, recorder.camera(), options);
+  std::vector<std::string> out;
+  for (std::size_t m = 0; m < count; ++m) {
+    if (!go_on(static_cast<double>(m) / static_cast<double>(count))) return {};
+    out.push_back(png_bytes(painter.paint(moment(m), panel_view(run.file().view))));
+  }
+  return out;
 }
 
 }  // namespace tendril::runner
