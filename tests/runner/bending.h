@@ -25,6 +25,16 @@ inline nlohmann::json bending() {
   return scene;
 }
 
+/// Wound up by more than half a turn, beyond what orientation curves show; and its end is out of reach.
+inline nlohmann::json wound() {
+  nlohmann::json scene = bending();
+  scene["curve_pairs"][0]["nodes"] = 5;
+  scene["curve_pairs"][0]["reach"] = {1.0, 1.0, 0.1};
+  scene["forces"] = nlohmann::json::array(
+      {{{"type", "torque"}, {"curve_pair", "stem"}, {"node", -1}, {"direction", {0, 1, 0}}, {"signal", 8}}});
+  return scene;
+}
+
 /// The same tube on two stems side by side, of which one is softer: what is between them follows both.
 inline nlohmann::json forked() {
   using Json = nlohmann::json;

@@ -2,7 +2,7 @@
 
 #include "gltf/surface.h"
 
-#include <tendril/base/error.h>
+#include <tendril/bind/distortion.h>
 
 #include <cmath>
 
@@ -182,15 +182,36 @@ class Maker {
     glb_.json["animations"] = list({{"name", "run"}, {"samplers", samplers}, {"channels", channels}});
   }
 
+  /// The drawn triangles at rest, with the normals of their vertices, so that these can be turned.
+  bind::PolygonMesh drawn() const {
+    bind::PolygonMesh out;
+    for (const std::uint32_t i : surface_.point) out.points.push_back(film_.mesh().points[i]);
+    for (const Vec3f& n : surface_.normals) out.point_normals.push_back(n.cast<double>());
+    out.corners = surface_.triangles;
+    for (std::size_t end = 3; end <= out.corners.size(); end += 3)
+      out.face_begin.push_back(static_cast<std::uint32_t>(end));
+    return out;
+  }
+
+  Json add_target(const bind::PolygonMesh& rest, std::size_t moment) {
+    const std::vector<Vec3> all = film_.points(moment);
+    std::vector<Vec3> points;
+    for (const std::uint32_t i : surface_.point) points.push_back(all[i]);
+    std::vector<float> moved, turned;
+    for (std::size_t i = 0; i < points.size(); ++i) append(moved, points[i] - rest.points[i]);
+    Json target{{"POSITION", glb_.add(moved, "VEC3", 3, Glb::vertices, true)}};
+    if (rest.point_normals.empty()) return target;
+    const std::vector<Vec3> normals = bind::posed_normals(rest, points);
+    for (std::size_t i = 0; i < normals.size(); ++i) append(turned, normals[i] - rest.point_normals[i]);
+    target["NORMAL"] = glb_.add(turned, "VEC3", 3, Glb::vertices);
+    return target;
+  }
+
   Json add_morph() {
     const std::size_t count = film_.moments().size();
+    const bind::PolygonMesh rest = drawn();
     Json targets = Json::array();
-    for (std::size_t m = 0; m < count; ++m) {
-      const std::vector<Vec3> points = film_.points(m);
-      std::vector<float> moved;
-      for (const std::uint32_t i : surface_.point) append(moved, points[i] - film_.mesh().points[i]);
-      targets.push_back({{"POSITION", glb_.add(moved, "VEC3", 3, Glb::vertices, true)}});
-    }
+    for (std::size_t m = 0; m < count; ++m) targets.push_back(add_target(rest, m));
     primitive()["targets"] = targets;
     glb_.json["meshes"][0]["weights"] = std::vector<float>(count, 0.0F);
     place_["mesh"] = 0;

@@ -35,6 +35,16 @@ vec4 quaternion(vec3 x, vec3 y, vec3 z) {
   if (four.y >= four.z) return normalize(vec4(x.y + y.x, four.y, y.z + z.y, z.x - x.z));
   return normalize(vec4(z.x + x.z, y.z + z.y, four.z, x.y - y.x));
 }
+// (cos, sin) to single precision, which GLSL does not promise of its own: reduced to an eighth of a turn, then the
+// polynomials of the Cephes library.
+vec2 turn(float angle) {
+  float quarters = floor(angle * 0.63661977 + 0.5);
+  float r = ((angle - quarters * 1.5703125) - quarters * 4.83751297e-4) - quarters * 7.54978995e-8, z = r * r;
+  float c = 1.0 - 0.5 * z + z * z * (4.166664568e-2 + z * (-1.388731625e-3 + z * 2.443315712e-5));
+  float s = r + r * z * (-1.6666654611e-1 + z * (8.3321608736e-3 - z * 1.9515295891e-4));
+  int k = int(quarters) & 3;
+  return k == 0 ? vec2(c, s) : k == 1 ? vec2(-s, c) : k == 2 ? vec2(-c, -s) : vec2(s, -c);
+}
 void place(int index, out vec3 point, out vec4 frame, out float weight) {
   vec4 record = share(3 * index), more = share(3 * index + 1);
   int row = int(more.y);
@@ -42,8 +52,8 @@ void place(int index, out vec3 point, out vec4 frame, out float weight) {
   vec3 h = curve(row, P + 1, P - 1, record.x).xyz;
   vec3 n = curve(row, 2 * P + 1, P, record.x).xyz;
   vec3 z = normalize(h), x0 = normalize(cross(n, z)), y0 = cross(z, x0);
-  float cosine = cos(c.w), sine = sin(c.w);
-  vec3 x = cosine * x0 + sine * y0, y = cosine * y0 - sine * x0;
+  vec2 t = turn(c.w);
+  vec3 x = t.x * x0 + t.y * y0, y = t.x * y0 - t.y * x0;
   point = c.xyz + (record.y * x + record.z * y + record.w * z);
   frame = times(quaternion(x, y, z), share(3 * index + 2));
   weight = more.x;

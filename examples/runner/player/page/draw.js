@@ -181,19 +181,25 @@ function vertices(points, triangles, normals, colorOf) {
 class Shape {
   constructor(gl, vertexShader, attributes, index) {
     this.gl = gl;
-    this.lit = program(gl, vertexShader, surfaceFragment);
-    this.dark = program(gl, vertexShader, shadowFragment);
+    this.lit = shared(gl, vertexShader, surfaceFragment);
+    this.dark = shared(gl, vertexShader, shadowFragment);
     this.count = index.length;
+    this.buffers = [];
     this.vaos = [this.lit, this.dark].map(made => {
       const vao = gl.createVertexArray();
       gl.bindVertexArray(vao);
-      for (const [name, values, size] of attributes) attribute(gl, made, name, values, size);
+      for (const [name, values, size] of attributes) this.buffers.push(attribute(gl, made, name, values, size));
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, index, gl.STATIC_DRAW);
+      this.buffers.push(buffer);
       gl.bindVertexArray(null);
       return vao;
     });
+  }
+  free() {
+    this.buffers.forEach(buffer => this.gl.deleteBuffer(buffer));
+    this.vaos.forEach(vao => this.gl.deleteVertexArray(vao));
   }
   draw(scene, shadow, numbers = {}) {
     const gl = this.gl, made = shadow ? this.dark : this.lit;

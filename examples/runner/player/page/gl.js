@@ -15,6 +15,13 @@ function program(gl, vertex, fragment, outputs) {
   return made;
 }
 
+// The same, made once for all who ask.
+function shared(gl, vertex, fragment) {
+  const known = gl.programs ??= new Map(), key = vertex + fragment;
+  if (!known.has(key)) known.set(key, program(gl, vertex, fragment));
+  return known.get(key);
+}
+
 // Of the vertex array that is bound; values may be a buffer that is filled already.
 function attribute(gl, made, name, values, size, integer = false, divisor = 0) {
   const given = values instanceof WebGLBuffer, buffer = given ? values : gl.createBuffer();

@@ -58,6 +58,7 @@ class Scene {
     else this.control.set(a);
     this.spans.pose(this.control);
     if (this.mesh) this.mesh.update();
+    this.tubes.forEach(tube => tube.free());
     this.tubes.clear();
   }
 
@@ -159,14 +160,15 @@ class Scene {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const {eye, camera} = orbit.camera(width, height, lift);
     const scene = {eye, camera, up: view.up, lamp: this.lamp, squash: this.squash(), dark};
-    const things = [];
-    if (this.skin && shown.mesh)
-      things.push(shadow => this.skin.draw(scene, shadow, {marked: shown.ambiguous ? 0.85 : 0}));
-    (this.solids || []).forEach((solid, k) => things.push(shadow => { if (!shadow || !this.film.solids[k].flat) solid.draw(scene, shadow, {model: this.model(k)}); }));
+    const things = [], floors = [];
+    if (this.skin && shown.mesh) things.push(shadow => this.skin.draw(scene, shadow, {marked: shown.ambiguous ? 0.85 : 0}));
+    (this.solids || []).forEach((solid, k) => (this.film.solids[k].flat ? floors : things).push(
+      shadow => solid.draw(scene, shadow, {model: this.model(k)})));
     if (shown.tubes) this.film.pairs.forEach((_, p) => {
       if (!this.tubes.has(p)) this.tubes.set(p, this.tube(p));
       things.push(shadow => this.tubes.get(p).draw(scene, shadow));
     });
+    floors.forEach(draw => draw(false));
     if (dot(eye, view.up) > view.ground) {
       // Each pixel of the ground is darkened once.
       gl.enable(gl.STENCIL_TEST);
@@ -181,9 +183,9 @@ class Scene {
     this.drawLines(shown, scene, width, height, window.devicePixelRatio || 1);
   }
 
-  // Onto the ground, along the lamp's light.
+  // Onto the ground, along the lamp's light; a little above it, not to lie in a floor that is drawn.
   squash() {
-    const {up, ground} = this.film.view, l = this.lamp, slope = dot(l, up);
+    const {up} = this.film.view, l = this.lamp, slope = dot(l, up), ground = this.film.view.ground + 0.001;
     const out = [...kIdentity];
     for (let r = 0; r < 3; ++r) {
       for (let c = 0; c < 3; ++c) out[4 * c + r] = (r === c ? 1 : 0) - l[r] * up[c] / slope;
