@@ -14,6 +14,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kPointUnit = 0x1p-25;  // of coordinates, over the size
 constexpr double kParts = 0x1p24;       // of a curve's domain, and of weights
+constexpr double kArrowUnit = 0x1p-20;  // of contacts, over the size
+constexpr double kLongestArrow = 0.12;  // of their forces
 constexpr double kControlRange = 0x1p28;
 
 std::int32_t rounded(double value) {
@@ -113,10 +115,10 @@ class Writer {
     }
   }
 
-  std::vector<std::int32_t> steps_of(Points points) const {
+  static std::vector<std::int32_t> steps_of(Points points, double unit) {
     std::vector<std::int32_t> out;
     for (const Vec3& p : points)
-      for (int k = 0; k < 3; ++k) out.push_back(rounded(p[k] / kPointUnit));
+      for (int k = 0; k < 3; ++k) out.push_back(rounded(p[k] / unit));
     return out;
   }
 
@@ -134,7 +136,7 @@ class Writer {
     const bind::PolygonMesh& mesh = film_.mesh();
     std::vector<Vec3> points;
     for (const Vec3& p : mesh.points) points.push_back(place_(p));
-    pack_.add("points", steps_of(points), 3);
+    pack_.add("points", steps_of(points, kPointUnit), 3);
     std::vector<std::size_t> face_of;
     pack_.add("triangles", corners_of(mesh, &face_of));
     std::vector<std::int32_t> colors;
@@ -204,8 +206,11 @@ class Writer {
                                  {"color", packed(one.point_colors.front())},
                                  {"flat", shape.type == scene::SolidShape::Type::half_space}});
     }
-    for (Vec3& p : all.points) p /= place_.size;
-    pack_.add("solid_points", steps_of(all.points), 3);
+    double far = 0.0;
+    for (const Vec3& p : all.points) far = std::max(far, p.cwiseAbs().maxCoeff());
+    const double unit = std::max(far / kControlRange, 1e-300);
+    pack_.add("solid_points", steps_of(all.points, unit), 3);
+    json_["solidUnit"] = unit / place_.size;
     pack_.add("solid_triangles", triangles);
     for (const Moment& m : film_.moments()) {
       Json poses = Json::array();
@@ -259,13 +264,32 @@ class Writer {
     double most = 0.0;
     for (const Moment& m : film_.moments())
       for (const Meeting& meeting : m.meetings) most = std::max(most, meeting.force.norm());
-    const double scale = most > 0.0 ? 0.12 / most : 0.0;
+    const double scale = most > 0.0 ? kLongestArrow / most : 0.0;
+    std::vector<std::int32_t> count;
+    std::vector<Vec3> ends;
     for (const Moment& m : film_.moments()) {
-      Json list = Json::array();
-      for (const Meeting& meeting : m.meetings)
-        list.push_back({{"p", json_of(place_(meeting.point))}, {"f", json_of(scale * meeting.force)}});
-      json_["contacts"].push_back(list);
+      count.push_back(static_cast<std::int32_t>(m.meetings.size()));
+      for (const Meeting& meeting : m.meetings) {
+        const Vec3 at = place_(meeting.point);
+        ends.insert(ends.end(), {at, Vec3(at + scale * meeting.force)});
+      }
     }
+    pack_.add("contact_count", count);
+    pack_.add("contact_ends", steps_of(ends, kArrowUnit), 6);
+    json_["arrowUnit"] = kArrowUnit;
+  }
+
+  /// Height of what shadows fall on: the ground of pictures, or a half space that is above it.
+  double ground() const {
+    const Vec3& up = camera_.ground_up;
+    double out = camera_.ground;
+    for (std::size_t k = 0; k < film_.file().bodies.size(); ++k) {
+      const scene::SolidPose& pose = film_.moments().front().bodies[k];
+      const bool level = pose.rotation.col(2).dot(up) > 0.999;
+      if (level && film_.file().bodies[k].shape.type == scene::SolidShape::Type::half_space)
+        out = std::max(out, pose.position.dot(up));
+    }
+    return (out - up.dot(place_.middle)) / place_.size;
   }
 
   void add_view() {
@@ -273,7 +297,7 @@ class Writer {
     json_["view"] = {{"eye", json_of(place_(c.eye))},
                      {"target", json_of(place_(c.eye + c.forward * c.forward.dot(c.centre - c.eye)))},
                      {"up", json_of(c.ground_up)},
-                     {"ground", (c.ground - c.ground_up.dot(place_.middle)) / place_.size},
+                     {"ground", ground()},
                      {"lamp", json_of(1.2 * c.ground_up - 0.5 * c.right - 0.55 * c.forward)}};
   }
 

@@ -158,23 +158,26 @@ function smooth(points, triangles) {
 
 // A vertex for each different normal and color of a point; the first ones are the points in turn.
 function vertices(points, triangles, normals, colorOf) {
-  const known = new Map(), seen = new Uint8Array(points), index = new Uint32Array(triangles.length);
-  const point = Array.from({length: points}, (_, i) => i), facing = new Array(3 * points).fill(0), paint = new Array(4 * points).fill(255);
+  const most = points + triangles.length, index = new Uint32Array(triangles.length), next = new Int32Array(most).fill(-1);
+  const used = new Uint8Array(points), point = new Uint32Array(most), colors = new Int32Array(most), facing = new Float32Array(3 * most);
+  for (let i = 0; i < points; ++i) point[i] = i;
+  let count = points;
   for (let k = 0; k < triangles.length; ++k) {
-    const i = triangles[k], n = normals.subarray(3 * k, 3 * k + 3), color = colorOf(k);
-    const key = `${i} ${n[0].toFixed(3)} ${n[1].toFixed(3)} ${n[2].toFixed(3)} ${color}`;
-    let vertex = known.get(key);
-    if (vertex === undefined) {
-      vertex = seen[i] ? point.length : i;
-      seen[i] = 1;
-      known.set(key, vertex);
-      point[vertex] = i;
-      for (let x = 0; x < 3; ++x) facing[3 * vertex + x] = n[x];
-      for (let x = 0; x < 4; ++x) paint[4 * vertex + x] = x < 3 ? color >> 8 * x & 255 : 255;
+    const i = triangles[k], color = colorOf(k), [x, y, z] = normals.subarray(3 * k, 3 * k + 3);
+    const alike = v => colors[v] === color && Math.abs(facing[3 * v] - x) + Math.abs(facing[3 * v + 1] - y) + Math.abs(facing[3 * v + 2] - z) < 1e-3;
+    let v = used[i] ? i : -1, last = -1;
+    while (v >= 0 && !alike(v)) [last, v] = [v, next[v]];
+    if (v < 0) {
+      v = last < 0 ? i : count++;
+      if (last < 0) used[i] = 1; else next[last] = v;
+      point[v] = i;
+      colors[v] = color;
+      facing.set([x, y, z], 3 * v);
     }
-    index[k] = vertex;
+    index[k] = v;
   }
-  return {point, index, attributes: [['facing', Float32Array.from(facing), 3], ['paint', Uint8Array.from(paint), 4]]};
+  const paint = Uint8Array.from({length: 4 * count}, (_, k) => k % 4 < 3 ? colors[k >> 2] >> 8 * (k % 4) & 255 : 255);
+  return {point: point.slice(0, count), index, attributes: [['facing', facing.slice(0, 3 * count), 3], ['paint', paint, 4]]};
 }
 
 // Triangles that are drawn, and their shadow.
@@ -209,7 +212,7 @@ class Shape {
     gl.uniformMatrix4fv(at('squash'), false, shadow ? scene.squash : kIdentity);
     gl.uniformMatrix4fv(at('model'), false, numbers.model || kIdentity);
     for (const name of ['up', 'lamp', 'eye']) gl.uniform3fv(at(name), scene[name]);
-    gl.uniform1f(at('solid'), 1);
+    gl.uniform1f(at('solid'), numbers.solid || 1);
     gl.uniform1f(at('dark'), scene.dark);
     gl.uniform3fv(at('mark'), [0.75, 0.12, 0.05]);
     gl.uniform1f(at('marked'), numbers.marked || 0);

@@ -12,7 +12,7 @@ async function main() {
     {key: 'pairs', name: 'curve-pairs', on: !scene.mesh, there: true},
     {key: 'frames', name: 'frames', on: false, there: true},
     {key: 'tubes', name: 'tubes', on: !scene.mesh, there: true},
-    {key: 'contacts', name: 'contacts', on: true, there: film.contacts.some(list => list.length > 0)},
+    {key: 'contacts', name: 'contacts', on: true, there: film.arrays.contact_count.some(n => n > 0)},
     {key: 'ambiguous', name: 'ambiguous', on: false, there: scene.mesh && film.arrays.other_count.some(n => n > 0)},
   ].filter(({there}) => there);
   const shown = Object.fromEntries(switches.map(({key, on}) => [key, on]));

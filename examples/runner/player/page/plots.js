@@ -51,7 +51,7 @@ class EnergyPlot extends Plot {
   draw(time) {
     const context = this.begin(), {times, energies} = this.film;
     const change = kSeries.map(({key}) => energies[key].map(e => e - energies[key][0]));
-    const low = Math.min(...change.flat()), high = Math.max(...change.flat()), room = high - low || 1;
+    const [low, high] = range(change.flat()), room = high - low || 1;
     const y = e => this.height - 5 - (this.height - 22) * (e - low) / room;
     this.line(context, [[kMargin, y(0)], [this.width - kMargin, y(0)]], '--line', 1);
     change.forEach((values, k) => this.line(context, values.map((e, m) => [this.x(times[m]), y(e)]), kSeries[k].color));
@@ -64,7 +64,7 @@ class StepPlot extends Plot {
   draw(time) {
     const context = this.begin(), {at, step} = this.film.steps;
     if (step.length > 0) {
-      const low = Math.log(Math.min(...step)), high = Math.log(Math.max(...step));
+      const [low, high] = range(step).map(Math.log);
       const room = Math.max(high - low, Math.log(4)), middle = 0.5 * (low + high);
       const y = h => this.height - 5 - (this.height - 22) * (0.5 + (Math.log(h) - middle) / room);
       this.line(context, step.flatMap((h, k) => [[this.x(k > 0 ? at[k - 1] : this.from), y(h)], [this.x(at[k]), y(h)]]), '--violet', 1.2);
@@ -75,6 +75,10 @@ class StepPlot extends Plot {
 }
 
 const kMargin = 10;
+
+function range(values) {
+  return values.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
+}
 
 function style(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();

@@ -40,7 +40,7 @@ class Scene {
 
   addSolids() {
     const {gl, film} = this, {solid_points, solid_triangles} = film.arrays;
-    const places = Float64Array.from(solid_points, x => x * film.pointUnit);
+    const places = Float64Array.from(solid_points, x => x * film.solidUnit);
     this.solids = film.solids.map(({from, to, color}) => {
       const triangles = solid_triangles.subarray(from, to);
       const {point, index, attributes} = vertices(places.length / 3, triangles, smooth(places, triangles), () => color);
@@ -139,11 +139,15 @@ class Scene {
             ([axis, paint]) => lines.add(f.origin, f.origin.map((x, k) => x + 0.03 * axis[k]), [...paint, 1], 1.4 * ratio));
       }
     });
-    if (shown.contacts)
-      for (const {p, f} of film.contacts[Math.round(this.moment)]) {
-        lines.add(p, p, [0.95, 0.55, 0.05, 1], 3.5 * ratio);
-        lines.add(p, p.map((x, k) => x + f[k]), [0.95, 0.55, 0.05, 1], 1.5 * ratio);
+    if (shown.contacts) {
+      const {contact_count, contact_ends} = film.arrays, moment = Math.round(this.moment);
+      const first = contact_count.subarray(0, moment).reduce((sum, n) => sum + n, 0);
+      for (let k = first; k < first + contact_count[moment]; ++k) {
+        const [from, to] = [0, 3].map(x => Array.from(contact_ends.subarray(6 * k + x, 6 * k + x + 3), c => c * film.arrowUnit));
+        lines.add(from, from, [0.95, 0.55, 0.05, 1], 3.5 * ratio);
+        lines.add(from, to, [0.95, 0.55, 0.05, 1], 1.5 * ratio);
       }
+    }
     const gl = this.gl;
     gl.disable(gl.DEPTH_TEST);
     lines.draw(scene.camera, width, height);
@@ -162,13 +166,17 @@ class Scene {
     const scene = {eye, camera, up: view.up, lamp: this.lamp, squash: this.squash(), dark};
     const things = [], floors = [];
     if (this.skin && shown.mesh) things.push(shadow => this.skin.draw(scene, shadow, {marked: shown.ambiguous ? 0.85 : 0}));
-    (this.solids || []).forEach((solid, k) => (this.film.solids[k].flat ? floors : things).push(
-      shadow => solid.draw(scene, shadow, {model: this.model(k)})));
+    (this.solids || []).forEach((solid, k) => {
+      const {flat} = this.film.solids[k];
+      (flat ? floors : things).push(shadow => solid.draw(scene, shadow, {model: this.model(k), solid: flat ? 0.25 : 1}));
+    });
     if (shown.tubes) this.film.pairs.forEach((_, p) => {
       if (!this.tubes.has(p)) this.tubes.set(p, this.tube(p));
       things.push(shadow => this.tubes.get(p).draw(scene, shadow));
     });
+    gl.depthMask(false);
     floors.forEach(draw => draw(false));
+    gl.depthMask(true);
     if (dot(eye, view.up) > view.ground) {
       // Each pixel of the ground is darkened once.
       gl.enable(gl.STENCIL_TEST);
