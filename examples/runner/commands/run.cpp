@@ -134,6 +134,23 @@ int run(const Options& options) {
   return report.stop == Stop::finished ? kDone : kNoSuccess;
 }
 
+void add_extras(CLI::App& app, ExtraFlags& extras) {
+  app.add_flag("--vtk", extras.vtk,
+               "write a time series for ParaView too, run.pvd: mesh, rods and contacts with fields");
+  CLI::Option* gltf = app.add_flag("--gltf", extras.gltf,
+                                   "write NAME.glb too: glTF 2.0, the mesh on a skin that follows the run");
+  app.add_option("--gltf-tolerance", extras.gltf_tolerance,
+                 "how far that skin may be off, over the mesh's size; more joints where it is small")
+      ->check(CLI::PositiveNumber)
+      ->needs(gltf);
+  app.add_flag("--gltf-morph", extras.gltf_morph,
+               "write NAME.glb with a morph target an output instead: exact, and large")
+      ->excludes(gltf);
+  app.add_option("--film", extras.film, "draw every output into this file, a picture that moves (APNG)");
+  app.add_flag("--player", extras.player,
+               "write NAME.html too, a page that plays the run; it needs no server");
+}
+
 }  // namespace
 
 Command run_command(CLI::App& parent) {
@@ -148,7 +165,7 @@ Command run_command(CLI::App& parent) {
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
   options->mode.add_to(*app);
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");
-  options->extras.add_to(*app);
+  add_extras(*app, options->extras);
   app->add_flag("--no-pictures", options->no_pictures, "draw no pictures");
   app->add_flag("--mark-ambiguous", options->mark_ambiguous,
                 "in pictures, color the points of the mesh that are bound to several places of the axes");

@@ -18,19 +18,6 @@ std::string counted(std::size_t count, const char* things, const char* thing) {
 
 }  // namespace
 
-void ExtraFlags::add_to(CLI::App& app) {
-  app.add_flag("--vtk", vtk,
-               "write a time series for ParaView too, run.pvd: mesh, rods and contacts with fields");
-  app.add_flag("--gltf", gltf, "write NAME.glb too: glTF 2.0, the mesh on a skin that follows the run");
-  app.add_option("--gltf-tolerance", gltf_tolerance,
-                 "how far that skin may be off, over the mesh's size; more joints where it is small")
-      ->check(CLI::PositiveNumber);
-  app.add_flag("--gltf-morph", gltf_morph,
-               "write NAME.glb with a morph target an output instead: exact, and large");
-  app.add_option("--film", film, "draw every output into this file, a picture that moves (APNG)");
-  app.add_flag("--player", player, "write NAME.html too, a page that plays the run; it needs no server");
-}
-
 Extras::Extras(const ExtraFlags& flags, const scene::SceneRun& run, bind::PolygonMesh look, std::string name,
                Recorder& recorder, const std::string& folder)
     : flags_(flags), run_(run), look_(std::move(look)), name_(std::move(name)), recorder_(recorder) {

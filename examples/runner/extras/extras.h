@@ -6,7 +6,6 @@
 #include "write/recorder.h"
 #include "write/run_pictures.h"
 
-#include <CLI/CLI.hpp>
 #include <optional>
 
 namespace tendril::runner {
@@ -16,8 +15,6 @@ struct ExtraFlags {
   bool vtk = false, gltf = false, gltf_morph = false, player = false;
   double gltf_tolerance = 1e-3;
   std::string film;  ///< path of a picture that moves; empty for none
-
-  void add_to(CLI::App& app);
   bool any_gltf() const { return gltf || gltf_morph; }
 };
 
