@@ -7,6 +7,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "foot.h"
+
 namespace tendril::contact {
 namespace {
 
@@ -14,34 +16,6 @@ using Corners = std::array<std::uint32_t, 3>;
 
 std::string place_of(std::size_t triangle) {
   return "mesh.triangles[" + std::to_string(triangle) + "]";
-}
-
-/// Of the three corners, edges and the face of a triangle, which is nearest.
-enum class Part { corner, edge, face };
-
-/// The nearest point of a triangle. Edge i goes from corner i to the next.
-struct Foot {
-  Vec3 point;
-  Part part;
-  std::size_t which;
-};
-
-/// After [Ericson 2005] 5.1.5: by the signs of products that say beside which part x stands.
-Foot foot_on(const std::array<Vec3, 3>& t, const Vec3& x) {
-  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], a = x - t[0], b = x - t[1], c = x - t[2];
-  const double d1 = ab.dot(a), d2 = ac.dot(a), d3 = ab.dot(b), d4 = ac.dot(b), d5 = ab.dot(c), d6 = ac.dot(c);
-  if (d1 <= 0.0 && d2 <= 0.0) return {t[0], Part::corner, 0};
-  if (d3 >= 0.0 && d4 <= d3) return {t[1], Part::corner, 1};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {t[0] + d1 / (d1 - d3) * ab, Part::edge, 0};
-  if (d6 >= 0.0 && d5 <= d6) return {t[2], Part::corner, 2};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {t[0] + d2 / (d2 - d6) * ac, Part::edge, 2};
-  const double va = d3 * d6 - d5 * d4, on_bc = d4 - d3, off_bc = d5 - d6;
-  if (va <= 0.0 && on_bc >= 0.0 && off_bc >= 0.0)
-    return {t[1] + on_bc / (on_bc + off_bc) * (t[2] - t[1]), Part::edge, 1};
-  const double sum = va + vb + vc;
-  return {t[0] + vb / sum * ab + vc / sum * ac, Part::face, 0};
 }
 
 /// Which triangle has an edge in its direction.
@@ -95,11 +69,11 @@ class MeshShape final : public Shape {
     const Vec3 away = x - nearest.foot.point, &outward = normal_of(nearest);
     const double d = away.norm(), side = away.dot(outward) < 0.0 ? -1.0 : 1.0;
     // On a face the plane's own normal has more digits than a short way from it; on an edge there is no way.
-    if (nearest.foot.part == Part::face || d == 0.0)
+    if (nearest.foot.part == Foot::Part::face || d == 0.0)
       return {side * d, outward.normalized(), Mat3(Mat3::Zero())};
     const Vec3 n = side / d * away;
     Mat3 flat = Mat3::Identity() - n * n.transpose();
-    if (nearest.foot.part == Part::edge) {
+    if (nearest.foot.part == Foot::Part::edge) {
       const auto t = corners(nearest.triangle);
       const Vec3 along = (t[(nearest.foot.which + 1) % 3] - t[nearest.foot.which]).normalized();
       flat -= along * along.transpose();
@@ -147,11 +121,11 @@ class MeshShape final : public Shape {
 
   const Vec3& normal_of(const Nearest& at) const {
     switch (at.foot.part) {
-      case Part::corner:
+      case Foot::Part::corner:
         return corner_normals_[triangles_[at.triangle][at.foot.which]];
-      case Part::edge:
+      case Foot::Part::edge:
         return edge_normals_[3 * at.triangle + at.foot.which];
-      case Part::face:
+      case Foot::Part::face:
         break;
     }
     return face_normals_[at.triangle];

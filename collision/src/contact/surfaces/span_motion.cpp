@@ -87,4 +87,27 @@ double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& bef
   return (widest(a.at, b.at, span.count) + span.reach * (turn + about)) * (1.0 + 1e-9) + 1e-12 * size;
 }
 
+Placement going_with(const UsedSpan& span, const CurvePair& pair) {
+  const Controls c = controls(span, pair, [](const Vec3& x) { return x; });
+  Placement result;
+  result.position = mean(c.at, span.count) / static_cast<double>(span.count);
+  const Vec3 z = mean(c.rate, span.count - 1).stableNormalized();
+  const Vec3 x = mean(c.offset, span.count).cross(z).stableNormalized();
+  // Any frame would do: one that does not exist does nothing.
+  if (x.squaredNorm() > 0.5) result.rotation << x, z.cross(x), z;
+  return result;
+}
+
+/// With x = P + R y before and x' = P' + R' y' now, x' - x = P' - P + (R' - R) y + R' (y' - y). A rotation by
+/// theta less none has the norm 2 sin(theta / 2), and sqrt(2) times that in Frobenius' sense.
+double motion(const UsedSpan& span, const SpanShape& shape, const CurvePair& before, const Placement& from,
+              const CurvePair& now, const Placement& to) {
+  double radius = 0.0;
+  for (const Vec3& x : before.primary().control_points().subspan(span.first, span.count))
+    radius = std::max(radius, (x - from.position).squaredNorm());
+  const double turned = (to.rotation - from.rotation).norm() / std::sqrt(2.0);
+  const double carried = (to.position - from.position).norm() + turned * (std::sqrt(radius) + span.reach);
+  return carried * (1.0 + 1e-9) + motion(span, shape, {before, from}, {now, to});
+}
+
 }  // namespace tendril::contact

@@ -38,4 +38,12 @@ struct PosedFrom {
 double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
               const PosedFrom& now);
 
+/// A frame that goes with a span, about the mean of its control points: the axes of the means of c' and n.
+Placement going_with(const UsedSpan& span, const CurvePair& pair);
+/// The same as motion() between two poses as the world sees them, sharper where the span moves as one: how
+/// far the frame that goes with it takes what it holds, and how far that moves as seen from there.
+/// \param from, to  going_with() before and now
+double motion(const UsedSpan& span, const SpanShape& shape_before, const CurvePair& before,
+              const Placement& from, const CurvePair& now, const Placement& to);
+
 }  // namespace tendril::contact

@@ -1,9 +1,8 @@
-#include <tendril/base/error.h>
 #include <tendril/contact/surface_contact.h>
 
-#include <string>
 #include <utility>
 
+#include "surface_nodes.h"
 #include "surface_touch.h"
 
 namespace tendril::contact {
@@ -69,9 +68,7 @@ void SurfaceContact::add(const StateView& state, const Loads& loads) const {
 
 Couplings SurfaceContact::couplings(std::span<const NodeRange> rods) const {
   const std::size_t nodes = rods.empty() ? 0 : rods.back().first + rods.back().count;
-  std::vector<std::size_t> all;
-  for (const std::size_t rod : model_->points().rods())
-    for (std::size_t i = rods[rod].first; i < rods[rod].first + rods[rod].count; ++i) all.push_back(i);
+  std::vector<std::size_t> all = nodes_of(model_->points(), rods);
   for (const std::size_t body : model_->colliders.bodies)
     for (const std::size_t turn : {0, 1}) all.push_back(nodes + 2 * body + turn);
   return Couplings::among(all);
@@ -83,13 +80,7 @@ Couplings SurfaceContact::couplings_with_bodies(std::span<const NodeRange> rods,
 }
 
 void SurfaceContact::check(std::span<const NodeRange> rods) const {
-  if (model_->points().curves().size() != rods.size())
-    throw InvalidInput("contact.surface.points", std::to_string(model_->points().curves().size()) + " rods",
-                       "those of the scene, " + std::to_string(rods.size()));
-  for (const std::size_t rod : model_->points().rods())
-    if (model_->points().curves().parameters(rod).size() != rods[rod].count)
-      throw InvalidInput("contact.surface.points", "rod " + std::to_string(rod) + " has other masses",
-                         "those of the scene");
+  check_nodes(model_->points(), rods);
 }
 
 bool SurfaceContact::has_energy() const {

@@ -8,6 +8,8 @@
 #include <map>
 #include <string>
 
+#include "span_list.h"
+
 namespace tendril::contact {
 namespace {
 
@@ -33,37 +35,6 @@ void check(const ContactSurface& surface) {
       if (corner >= count)
         throw InvalidInput(place_of(i), std::to_string(corner), "below " + std::to_string(count));
 }
-
-/// The spans that vertices are bound to, numbered as they turn up; each keeps how far off the curve what it
-/// carries reaches, since a turn of its frames moves that by as much times the angle.
-class SpanList {
- public:
-  SpanList(const RodPoints& points, std::vector<UsedSpan>& spans) : points_(points), spans_(spans) {
-    for (const std::size_t rod : points.rods()) knots_.push_back(&points.curves().knots(rod));
-  }
-
-  /// Those of a vertex, appended.
-  void of(std::uint32_t vertex, std::vector<std::uint32_t>& out) {
-    points_.points().shares(vertex, shares_);
-    for (const BoundShare& share : shares_) {
-      const KnotVector& knots = *knots_.at(share.pair);
-      const int span = knots.span(share.record.t);
-      const auto [at, added] = number_.try_emplace({share.pair, span}, spans_.size());
-      if (added) spans_.emplace_back(share.pair, knots, span);
-      const AxialPoint& r = share.record;
-      const double far = std::abs(r.u) + std::abs(r.v) + std::abs(r.w);
-      spans_[at->second].reach = std::max(spans_[at->second].reach, far);
-      out.push_back(static_cast<std::uint32_t>(at->second));
-    }
-  }
-
- private:
-  const RodPoints& points_;
-  std::vector<UsedSpan>& spans_;
-  std::vector<const KnotVector*> knots_;
-  std::map<std::pair<std::uint32_t, int>, std::size_t> number_;
-  std::vector<BoundShare> shares_;
-};
 
 /// Triangles by the set of spans that their corners depend on: one bound on the motion of these spans then
 /// holds for all of a patch. Finer patches would share that bound, and gain nothing by it. An ordered map, so

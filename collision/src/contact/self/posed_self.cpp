@@ -1,0 +1,157 @@
+#include "posed_self.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "contact/surfaces/surface_points.h"
+
+namespace tendril::contact {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+SelfModel::SelfModel(ContactSurface of, const Law& how)
+    : surface(checked(std::move(of))), law(checked(how)), mesh(surface) {}
+
+SelfPose SelfModel::pose(std::vector<CurvePair> pairs) const {
+  SelfPose result{std::move(pairs), {}, {}};
+  for (const UsedSpan& span : mesh.spans) {
+    result.shapes.push_back(shape_of(span, result.pairs[span.pair]));
+    result.going.push_back(going_with(span, result.pairs[span.pair]));
+  }
+  return result;
+}
+
+std::vector<double> SelfModel::motions(const SelfPose& before, std::span<const CurvePair> now) const {
+  std::vector<double> result;
+  result.reserve(mesh.spans.size());
+  for (std::size_t i = 0; i < mesh.spans.size(); ++i) {
+    const UsedSpan& span = mesh.spans[i];
+    result.push_back(motion(span, before.shapes[i], before.pairs[span.pair], before.going[i], now[span.pair],
+                            going_with(span, now[span.pair])));
+    if (!(result.back() < kInfinite)) result.back() = measured(i, before.pairs, now);
+  }
+  return result;
+}
+
+/// Where a curve turns round within a span, bounds by its control points say nothing.
+double SelfModel::measured(std::size_t span, std::span<const CurvePair> before,
+                           std::span<const CurvePair> now) const {
+  const std::vector<std::uint32_t>& vertices = mesh.bound_to[span];
+  std::vector<Vec3> was(vertices.size()), is(vertices.size());
+  points().points().place(before, vertices, was);
+  points().points().place(now, vertices, is);
+  double most = 0.0;
+  for (std::size_t i = 0; i < is.size(); ++i) most = std::max(most, (is[i] - was[i]).norm());
+  return most * (1.0 + 1e-9);
+}
+
+double SelfModel::of_patch(std::uint32_t patch, std::span<const double> motions) const {
+  double most = 0.0;
+  for (const std::uint32_t span : mesh.patches[patch].spans) most = std::max(most, motions[span]);
+  return most;
+}
+
+std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
+  std::vector<std::uint32_t> all(surface.rest.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<Vec3> result(all.size());
+  points().points().place(pairs, all, result);
+  return result;
+}
+
+PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept)
+    : model_(model), state_(state), kept_(kept), pairs_(model.points().pairs(state)) {
+  sound_ = !pairs_.empty();
+  if (!sound_) return;
+  choose_list();
+  if (!sound_) return;
+  wake();
+  place();
+}
+
+/// That of the ledger while nothing can have come through its skin; else a new one, wide enough for what has
+/// moved since the ledger was kept.
+void PosedSelf::choose_list() {
+  double most = 0.0;
+  if (kept_) {
+    motions_ = model_.motions(kept_->pose, pairs_);
+    bool holds = true;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      most = std::max(most, motions_[i]);
+      holds = holds && kept_->since_search[i] + motions_[i] <= 0.5 * kept_->list->skin;
+    }
+    if (holds) {
+      list_ = kept_->list;
+      return;
+    }
+  }
+  sound_ = most < kInfinite;
+  if (!sound_) return;
+  const std::vector<Vec3> at = model_.place(pairs_);
+  sound_ = all_finite(at);
+  if (!sound_) return;
+  list_ = model_.search({pairs_, {}, {}}, at, model_.barrier() ? 2.0 * most : 0.0);
+  fresh_ = true;
+}
+
+double PosedSelf::moved(const SelfGroup& group) const {
+  if (motions_.empty()) return 0.0;
+  return model_.of_patch(group.p, motions_) + model_.of_patch(group.q, motions_);
+}
+
+void PosedSelf::wake() {
+  for (std::uint32_t g = 0; g < list_->groups.size(); ++g)
+    if (fresh_ || !(kept_->slack[g] > moved(list_->groups[g]))) awake_.push_back(g);
+}
+
+void PosedSelf::place() {
+  if (awake_.empty()) return;
+  std::vector<char> wanted(list_->used.size(), 0);
+  for (const std::uint32_t g : awake_) {
+    const std::size_t begin = g == 0 ? 0 : list_->groups[g - 1].members;
+    for (std::size_t i = begin; i < list_->groups[g].members; ++i) wanted[list_->members[i]] = 1;
+  }
+  slot_.resize(model_.surface.rest.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i]) continue;
+    slot_[list_->used[i]] = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back(list_->used[i]);
+  }
+  now_.resize(vertices_.size());
+  model_.points().points().place(pairs_, vertices_, now_);
+}
+
+/// From the ledger where it has them all.
+const Vec3& PosedSelf::before(std::uint32_t vertex) {
+  if (before_.empty()) {
+    before_.resize(vertices_.size());
+    std::vector<std::uint32_t> missing;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      while (k < kept_->known.size() && kept_->known[k] < vertices_[i]) ++k;
+      if (k < kept_->known.size() && kept_->known[k] == vertices_[i])
+        before_[i] = kept_->at[k];
+      else
+        missing.push_back(vertices_[i]);
+    }
+    std::vector<Vec3> found(missing.size());
+    if (!missing.empty()) model_.points().points().place(kept_->pose.pairs, missing, found);
+    for (std::size_t i = 0; i < missing.size(); ++i) before_[slot_[missing[i]]] = found[i];
+  }
+  return before_[slot_[vertex]];
+}
+
+const Vec3& PosedSelf::velocity(std::uint32_t vertex) {
+  if (velocity_.empty()) {
+    velocity_.assign(vertices_.size(), Vec3::Zero());
+    const std::vector<CurvePair> rates = model_.points().rates(state_);
+    if (!rates.empty()) model_.points().points().velocities(pairs_, rates, vertices_, velocity_);
+  }
+  return velocity_[slot_[vertex]];
+}
+
+}  // namespace tendril::contact

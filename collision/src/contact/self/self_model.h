@@ -1,0 +1,74 @@
+#pragma once
+
+#include <tendril/contact/surface_self_contact.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "contact/response.h"
+#include "self_mesh.h"
+
+namespace tendril::contact {
+
+/// A vertex and a face, or two edges, that may come near each other.
+struct SelfPair {
+  std::uint32_t first, second;
+};
+/// Of every pair of a list: its distance less that where response begins, or less.
+struct PairSlacks {
+  std::vector<double> faces, edges;
+};
+
+/// The pairs of two patches.
+struct SelfGroup {
+  std::uint32_t p, q;                 ///< patches
+  std::size_t faces, edges, members;  ///< ends in SelfList's arrays; each group begins where the last ended
+  double slack;                       ///< least distance less that where response begins, when searched
+};
+
+/// Where the curves are, and how spans of them may be bounded from there.
+struct SelfPose {
+  std::vector<CurvePair> pairs;
+  std::vector<SpanShape> shapes;
+  std::vector<Placement> going;
+};
+
+/// Pairs that may come near each other while no vertex moves by more than half the skin from where it was.
+struct SelfList {
+  SelfPose pose;  ///< when searched
+  double skin = 0.0;
+  std::vector<SelfGroup> groups;
+  std::vector<SelfPair> faces, edges;  ///< of vertices of the mesh and its faces; of its edges
+  PairSlacks slack;                    ///< when searched
+  std::vector<std::uint32_t> members;  ///< of a group's pairs, indices of `used`
+  std::vector<std::uint32_t> used;     ///< vertices of the mesh that any pair has, ascending
+};
+
+struct SelfModel {
+  SelfModel(ContactSurface surface, const Law& law);
+
+  ContactSurface surface;
+  Law law;
+  SelfMesh mesh;
+
+  bool barrier() const { return law.kind == Law::Kind::barrier; }
+  const RodPoints& points() const { return *surface.points; }
+  double thick() const { return 2.0 * surface.skin; }
+  double meets() const { return thick() + law.range; }
+
+  SelfPose pose(std::vector<CurvePair> pairs) const;
+  /// How far what each span holds moved at most.
+  std::vector<double> motions(const SelfPose& before, std::span<const CurvePair> now) const;
+  double measured(std::size_t span, std::span<const CurvePair> before, std::span<const CurvePair> now) const;
+  /// Of a patch: a blended vertex moves as a mean of the points it is made of.
+  double of_patch(std::uint32_t patch, std::span<const double> motions) const;
+  /// Pairs nearer than where response begins and the skin. `at` are all vertices.
+  std::shared_ptr<const SelfList> search(SelfPose pose, std::span<const Vec3> at, double skin) const;
+  std::vector<Vec3> place(std::span<const CurvePair> pairs) const;
+  /// Two places of one part that rest this near each other are left out.
+  double left_out(double first_side, double second_side) const {
+    return std::max(1.5 * meets(), first_side + second_side);
+  }
+};
+
+}  // namespace tendril::contact

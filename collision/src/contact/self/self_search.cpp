@@ -1,0 +1,228 @@
+#include <tendril/collision/box_tree.h>
+
+#include <limits>
+
+#include "contact/foot.h"
+#include "self_model.h"
+
+namespace tendril::contact {
+namespace {
+
+using collision::Box;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+Box widened(Box box, double by) {
+  return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};
+}
+
+/// Fills a list.
+class SelfSearch {
+ public:
+  SelfSearch(const SelfModel& model, std::span<const Vec3> at, double skin, SelfList& list)
+      : model_(model), mesh_(model.mesh), at_(at), far_(model.meets() + skin), list_(list) {}
+
+  void run() {
+    std::vector<Box> wide;
+    for (const SelfPatch& patch : mesh_.patches) {
+      boxes_.push_back(box_of(patch.corners, at_));
+      wide.push_back(widened(boxes_.back(), 0.5 * far_));
+      rest_.push_back(resting(patch));
+    }
+    const collision::BoxTree tree(wide);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
+    tree.pairs(tree, [&](std::size_t a, std::size_t b) {
+      if (a <= b && !keeps_apart(a, b)) near.emplace_back(a, b);
+    });
+    std::sort(near.begin(), near.end());
+    for (const auto& [p, q] : near) look(p, q);
+    number_members();
+  }
+
+ private:
+  /// Where a patch rests, and the rotation that its first face has made since.
+  struct Resting {
+    Vec3 centre;
+    double radius;
+    Mat3 turned;  ///< zero where a face has no area
+  };
+
+  static Box box_of(std::span<const std::uint32_t> vertices, std::span<const Vec3> at) {
+    Box box{at[vertices[0]], at[vertices[0]]};
+    for (const std::uint32_t v : vertices) {
+      box.low = box.low.cwiseMin(at[v]);
+      box.high = box.high.cwiseMax(at[v]);
+    }
+    return box;
+  }
+  static Mat3 axes(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 x = (b - a).stableNormalized(), z = x.cross(c - a).stableNormalized();
+    Mat3 m;
+    m << x, z.cross(x), z;
+    return m;
+  }
+  Resting resting(const SelfPatch& patch) const {
+    const Box box = box_of(patch.corners, model_.surface.rest);
+    const auto& [a, b, c] = model_.surface.triangles[patch.faces[patch.faces.size() / 2]];
+    const auto& rest = model_.surface.rest;
+    const Mat3 turned = axes(at_[a], at_[b], at_[c]) * axes(rest[a], rest[b], rest[c]).transpose();
+    return {0.5 * (box.low + box.high), 0.5 * (box.high - box.low).norm(), turned};
+  }
+
+  /// Of two patches of one part: all rest so near each other that they are left out; or, as good as in one
+  /// piece, x = A X + b up to e, and so |x - y| >= |X - Y| - 2 e, with |X - Y| at least what is not left out.
+  bool keeps_apart(std::size_t p, std::size_t q) const {
+    const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
+    if (first.part != second.part) return false;
+    const Resting &a = rest_[p], &b = rest_[q];
+    const double least = 1.5 * model_.meets();
+    if ((a.centre - b.centre).norm() + a.radius + b.radius < least) return true;
+    const double room = least_left(first, second) - far_;
+    return room > 0.0 && a.turned.determinant() > 0.5 && strays(first, second, a) < 0.5 * room;
+  }
+  /// What two places of the patches that are not left out rest apart at least.
+  double least_left(const SelfPatch& first, const SelfPatch& second) const {
+    const auto least = [&](const SelfPatch& patch) {
+      double side = kInfinite;
+      for (const std::uint32_t f : patch.faces) side = std::min(side, mesh_.face_longest[f]);
+      return side;
+    };
+    return model_.left_out(least(first), least(second));
+  }
+  /// How far vertices are from where the first patch's rotation about its middle would have them.
+  double strays(const SelfPatch& first, const SelfPatch& second, const Resting& about) const {
+    const Vec3 now = middle(first, at_), rest = middle(first, model_.surface.rest);
+    double most = 0.0;
+    for (const SelfPatch* patch : {&first, &second})
+      for (const std::uint32_t v : patch->corners) {
+        const Vec3 carried = about.turned * (model_.surface.rest[v] - rest);
+        most = std::max(most, (at_[v] - now - carried).squaredNorm());
+      }
+    return std::sqrt(most);
+  }
+  static Vec3 middle(const SelfPatch& patch, std::span<const Vec3> at) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t v : patch.corners) sum += at[v];
+    return sum / static_cast<double>(patch.corners.size());
+  }
+
+  void look(std::uint32_t p, std::uint32_t q) {
+    const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
+    same_part_ = first.part == second.part;
+    slack_ = kInfinite;
+    const std::size_t faces = list_.faces.size(), edges = list_.edges.size(), members = list_.members.size();
+    faces_of(first, second, boxes_[q]);
+    if (p != q) faces_of(second, first, boxes_[p]);
+    edges_of(first, second, p == q);
+    if (list_.faces.size() == faces && list_.edges.size() == edges) return;
+    gather_members(faces, edges, members);
+    list_.groups.push_back(
+        {p, q, list_.faces.size(), list_.edges.size(), list_.members.size(), slack_ - model_.meets()});
+  }
+
+  void gather_members(std::size_t faces, std::size_t edges, std::size_t members) {
+    auto& out = list_.members;
+    for (; faces < list_.faces.size(); ++faces) {
+      out.push_back(list_.faces[faces].first);
+      for (const std::uint32_t v : model_.surface.triangles[list_.faces[faces].second]) out.push_back(v);
+    }
+    for (; edges < list_.edges.size(); ++edges)
+      for (const std::uint32_t e : {list_.edges[edges].first, list_.edges[edges].second})
+        for (const std::uint32_t v : mesh_.edges[e].end) out.push_back(v);
+    const auto from = out.begin() + static_cast<std::ptrdiff_t>(members);
+    std::sort(from, out.end());
+    out.erase(std::unique(from, out.end()), out.end());
+  }
+
+  void number_members() {
+    list_.used = list_.members;
+    std::sort(list_.used.begin(), list_.used.end());
+    list_.used.erase(std::unique(list_.used.begin(), list_.used.end()), list_.used.end());
+    std::vector<std::uint32_t> number(at_.size());
+    for (std::uint32_t i = 0; i < list_.used.size(); ++i) number[list_.used[i]] = i;
+    for (std::uint32_t& v : list_.members) v = number[v];
+  }
+
+  /// The vertices of one with the faces of the other.
+  void faces_of(const SelfPatch& of, const SelfPatch& with, const Box& box) {
+    const Box near = widened(box, far_);
+    for (const std::uint32_t v : of.vertices) {
+      if (!near.holds(at_[v])) continue;
+      for (const std::uint32_t f : with.faces) {
+        const auto& [a, b, c] = model_.surface.triangles[f];
+        if (v == a || v == b || v == c || !beside(at_[v], at_[a], at_[b], at_[c])) continue;
+        const double d = (at_[v] - foot_on({at_[a], at_[b], at_[c]}, at_[v]).point).norm();
+        if (!(d <= far_) || (same_part_ && rests_near(v, f))) continue;
+        slack_ = std::min(slack_, d);
+        list_.faces.push_back({v, f});
+        list_.slack.faces.push_back(d - model_.meets());
+      }
+    }
+  }
+  /// A point is within `far` of the box about a triangle.
+  bool beside(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    return (low.array() - far_ <= x.array()).all() && (x.array() <= high.array() + far_).all();
+  }
+  bool rests_near(std::uint32_t v, std::uint32_t f) const {
+    const auto& [a, b, c] = model_.surface.triangles[f];
+    const auto& rest = model_.surface.rest;
+    const double d = (rest[v] - foot_on({rest[a], rest[b], rest[c]}, rest[v]).point).norm();
+    return d < model_.left_out(mesh_.longest[v], mesh_.face_longest[f]);
+  }
+
+  void edges_of(const SelfPatch& first, const SelfPatch& second, bool same) {
+    for (const std::uint32_t e : first.edges)
+      for (const std::uint32_t f : second.edges) {
+        if (same && f <= e) continue;
+        const auto& [a, b] = mesh_.edges[e].end;
+        const auto& [c, d] = mesh_.edges[f].end;
+        if (a == c || a == d || b == c || b == d || !beside(mesh_.edges[e], mesh_.edges[f])) continue;
+        const double far = apart(at_, a, b, c, d);
+        if (!(far <= far_) || (same_part_ && edges_rest_near(e, f))) continue;
+        slack_ = std::min(slack_, far);
+        list_.edges.push_back({e, f});
+        list_.slack.edges.push_back(far - model_.meets());
+      }
+  }
+  /// The boxes of two edges are within `far`.
+  bool beside(const SelfEdge& e, const SelfEdge& f) const {
+    const Vec3 &a = at_[e.end[0]], &b = at_[e.end[1]], &c = at_[f.end[0]], &d = at_[f.end[1]];
+    return (a.cwiseMin(b).array() - far_ <= c.cwiseMax(d).array()).all() &&
+           (c.cwiseMin(d).array() <= a.cwiseMax(b).array() + far_).all();
+  }
+  bool edges_rest_near(std::uint32_t e, std::uint32_t f) const {
+    const auto& [a, b] = mesh_.edges[e].end;
+    const auto& [c, d] = mesh_.edges[f].end;
+    return apart(model_.surface.rest, a, b, c, d) <
+           model_.left_out(mesh_.edges[e].longest, mesh_.edges[f].longest);
+  }
+  static double apart(std::span<const Vec3> at, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                      std::uint32_t d) {
+    const SegmentFeet feet = feet_of(at[a], at[b], at[c], at[d]);
+    return (at[a] + feet.s * (at[b] - at[a]) - at[c] - feet.t * (at[d] - at[c])).norm();
+  }
+
+  const SelfModel& model_;
+  const SelfMesh& mesh_;
+  std::span<const Vec3> at_;
+  double far_;
+  SelfList& list_;
+  std::vector<Box> boxes_;
+  std::vector<Resting> rest_;
+  bool same_part_ = false;
+  double slack_ = 0.0;
+};
+
+}  // namespace
+
+std::shared_ptr<const SelfList> SelfModel::search(SelfPose pose, std::span<const Vec3> at,
+                                                  double skin) const {
+  auto list = std::make_shared<SelfList>();
+  list->pose = std::move(pose);
+  list->skin = skin;
+  SelfSearch(*this, at, skin, *list).run();
+  return list;
+}
+
+}  // namespace tendril::contact

@@ -1,0 +1,70 @@
+#include <tendril/base/error.h>
+
+#include <string>
+#include <utility>
+
+#include "contact/surfaces/surface_nodes.h"
+#include "posed_self.h"
+
+namespace tendril::contact {
+
+SurfaceSelfContact::SurfaceSelfContact(ContactSurface surface, const Law& law)
+    : model_(std::make_unique<const SelfModel>(std::move(surface), law)) {}
+SurfaceSelfContact::~SurfaceSelfContact() = default;
+
+void SurfaceSelfContact::add(const StateView& state, const Loads& loads) const {
+  const SelfModel& model = *model_;
+  const SelfLedger* kept = self_ledger_of(state.memory);
+  PosedSelf surface(model, state, kept);
+  const std::size_t node = state.rods[model.points().rods().front()].first;
+  if (!surface.sound()) return loads.refuse(node);
+  if (surface.awake().empty()) return;
+  const SelfMeetings meetings = meetings_of(model, surface, kept);
+  if (meetings.closed) return loads.refuse(node);
+  if (meetings.all.empty()) return;
+  std::vector<Vec3> all(surface.vertices().size(), Vec3::Zero());
+  std::vector<char> met(all.size(), 0);
+  for (const SelfResponse& meeting : meetings.all)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t slot = surface.slot(meeting.at.vertex[i]);
+      all[slot] += meeting.at.weight[i] * meeting.force + meeting.by_angle[i];
+      met[slot] = 1;
+    }
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> forces;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!met[i]) continue;
+    vertices.push_back(surface.vertices()[i]);
+    forces.push_back(all[i]);
+  }
+  if (!all_finite(forces)) return loads.refuse(node);
+  model.points().add_loads(state, model.points().points().pull_back(surface.pairs(), vertices, forces),
+                           loads);
+}
+
+Couplings SurfaceSelfContact::couplings(std::span<const NodeRange> rods) const {
+  return Couplings::among(nodes_of(model_->points(), rods));
+}
+
+void SurfaceSelfContact::check(std::span<const NodeRange> rods) const {
+  check_nodes(model_->points(), rods);
+}
+
+bool SurfaceSelfContact::has_energy() const {
+  return conservative(model_->law);
+}
+
+double SurfaceSelfContact::energy(const StateView& state) const {
+  const SelfLedger* kept = self_ledger_of(state.memory);
+  PosedSelf surface(*model_, state, kept);
+  double sum = 0.0;
+  if (!surface.sound() || surface.awake().empty()) return sum;
+  for (const SelfResponse& meeting : meetings_of(*model_, surface, kept).all) sum += meeting.energy;
+  return sum;
+}
+
+bool SurfaceSelfContact::refuses() const {
+  return model_->barrier();
+}
+
+}  // namespace tendril::contact

@@ -1,0 +1,303 @@
+#include <gtest/gtest.h>
+#include <tendril/base/error.h>
+#include <tendril/contact/surface_self_contact.h>
+#include <tendril/curve/frames.h>
+#include <tendril/dynamics/check_force.h>
+#include <tendril/dynamics/forces.h>
+#include <tendril/dynamics/simulation.h>
+#include <tendril/exact/surface.h>
+
+#include "laws.h"
+#include "sheets.h"
+#include "shown.h"
+
+namespace tendril::contact {
+namespace {
+
+using test::Random;
+using test::Sheets;
+using test::Shown;
+using test::shown_of;
+
+constexpr double kSkin = 0.01, kRange = 0.03;
+
+Mat3 about_z(double angle) {
+  return Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+}
+
+/// Two leaves, one across the other, with the gap between their skins.
+Sheets crossed(double gap) {
+  Sheets sheets;
+  const Rod rod = test::straight_rod(8, 1e6, 0.01, 400.0);
+  sheets.add(test::leaf(1.0, 0.15, 14, 3), rod, Vec3::Zero());
+  sheets.add(test::leaf(1.0, 0.15, 14, 3), rod, Vec3(0.4, -0.5, 2 * kSkin + gap), about_z(1.3));
+  return sheets;
+}
+
+const SurfaceSelfMemory& memory_of(const Shown& s) {
+  return static_cast<const SurfaceSelfMemory&>(*s.memory);
+}
+
+TEST(SurfaceSelf, KeepsToWhatItSaysOfItself) {
+  Random random(1);
+  const Sheets sheets = crossed(0.015);
+  for (const Law::Kind kind : {Law::Kind::barrier, Law::Kind::penalty}) {
+    SCOPED_TRACE(kind == Law::Kind::barrier ? "barrier" : "penalty");
+    const SurfaceSelfContact contact(sheets.surface(kSkin), law_of(kind, kRange, 0.0, 0.0));
+    Shown s = shown_of(sheets.rods, random, 0.002, 0.5);
+    s.memory = contact.remember(s.view(), nullptr);
+    ASSERT_GT(memory_of(s).touches.size(), 30u);
+    for (Vec3& p : s.p) p += random.in_cube(1e-4);
+    const ForceCheck check = check_force(contact, s.view(), 1e-6);
+    EXPECT_TRUE(check.undeclared.empty());
+    ASSERT_TRUE(contact.has_energy());
+    EXPECT_LT(check.energy, 2e-6);
+  }
+}
+
+/// What comes of inner forces alone: no force, and no torque but for friction.
+TEST(SurfaceSelf, PushesNothingFromOutside) {
+  Random random(2);
+  const Sheets sheets = crossed(0.012);
+  for (const double friction : {0.0, 0.4}) {
+    SCOPED_TRACE(friction);
+    const SurfaceSelfContact contact(sheets.surface(kSkin),
+                                     law_of(Law::Kind::barrier, kRange, friction, friction));
+    Shown s = shown_of(sheets.rods, random, 0.002, 0.5);
+    s.memory = contact.remember(s.view(), nullptr);
+    for (Vec3& p : s.p) p += random.in_cube(1e-4);
+    s.memory = contact.remember(s.view(), s.memory);
+    std::vector<Vec3> force(s.p.size(), Vec3::Zero()), torque = force;
+    contact.add(s.view(), {force, torque});
+    Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+    double scale = 0.0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      sum += force[i];
+      moment += s.p[i].cross(force[i]) + torque[i];
+      scale += force[i].norm();
+    }
+    ASSERT_GT(scale, 0.0);
+    EXPECT_LT(sum.norm(), 1e-12 * scale);
+    if (friction == 0.0) EXPECT_LT(moment.norm(), 1e-12 * scale);
+  }
+}
+
+/// What lists and bounds leave out is what has no part in it.
+TEST(SurfaceSelf, IsTheSameWithALedgerAndWithout) {
+  Random random(3);
+  const Sheets sheets = crossed(0.02);
+  const SurfaceSelfContact contact(sheets.surface(kSkin), law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
+  int touched = 0, untouched = 0;
+  for (int round = 0; round < 40; ++round) {
+    Shown s = shown_of(sheets.rods, random, 0.004, 0.5);
+    for (std::size_t i = 9; i < 18; ++i) s.p[i].z() += round % 2 == 0 ? random.uniform(-0.01, 0.03) : 0.1;
+    try {
+      s.memory = contact.remember(s.view(), nullptr);
+    } catch (const InvalidInput&) {
+      continue;
+    }
+    for (int step = 0; step < 6; ++step) {
+      for (Vec3& p : s.p) p += random.in_cube(0.002);
+      if (round % 2 == 1)
+        for (std::size_t i = 9; i < 18; ++i) s.p[i].z() -= 0.018;
+      std::vector<Vec3> with(s.p.size(), Vec3::Zero()), without = with, torque = with, turned = with;
+      std::size_t refused = Loads::kNone, again = Loads::kNone;
+      contact.add(s.view(), {with, torque, &refused});
+      StateView bare = s.view();
+      bare.memory = nullptr;
+      contact.add(bare, {without, turned, &again});
+      if (refused != Loads::kNone) break;
+      EXPECT_EQ(again, Loads::kNone);
+      EXPECT_EQ(with, without);
+      EXPECT_EQ(torque, turned);
+      ++(with != std::vector<Vec3>(s.p.size(), Vec3::Zero()) ? touched : untouched);
+      s.memory = contact.remember(s.view(), s.memory);
+    }
+  }
+  EXPECT_GT(touched, 60);
+  EXPECT_GT(untouched, 20);
+  std::cout << touched << " touched, " << untouched << " not\n";
+}
+
+/// Two flat sheets one above the other hold about the potential of their gap times their area, whether edges
+/// are longer or shorter than the range.
+TEST(SurfaceSelf, WeighsAreas) {
+  Random random(4);
+  const test::Leaf wide = test::leaf(1.0, 0.5, 24, 12), small = test::leaf(0.5, 0.2, 15, 5);
+  double area = 0.0;
+  for (const auto& [a, b, c] : small.triangles)
+    area += 0.5 * (small.points[b] - small.points[a]).cross(small.points[c] - small.points[a]).norm();
+  for (const double range : {0.01, 0.03, 0.06})
+    for (const double turned : {0.0, 0.3, 1.0}) {
+      const double skin = 0.1 * range, gap = 0.3 * range;
+      const Law law = law_of(Law::Kind::barrier, range, 0.0, 0.0);
+      const Vec3 at(0.3, -0.1, 2 * skin + gap);
+      Sheets sheets;
+      const Rod rod = test::straight_rod(8, 1e6, 0.01, 400.0);
+      sheets.add(wide, rod, Vec3::Zero());
+      sheets.add(small, rod, at, about_z(turned));
+      for (Vec3& p : sheets.rods[1].p) p = at + 0.5 * (p - at);
+      for (Vec3& q : sheets.rods[1].q) q = at + 0.5 * (q - at);
+      const SurfaceSelfContact contact(sheets.surface(skin), law);
+      const Shown s = shown_of(sheets.rods, random, 0.0, 0.0);
+      const double ratio =
+          contact.energy(s.view()) / (area * law.stiffness * potential(law, gap).value);
+      std::cout << "range " << range << ", turned " << turned << ": " << ratio << " of the area's\n";
+      EXPECT_GT(ratio, 0.6);
+      EXPECT_LT(ratio, 1.6);
+    }
+}
+
+/// Holds the parts of a mesh against each other at accepted states, exactly.
+class ExactParts {
+ public:
+  ExactParts(const ContactSurface& surface, const System& system, std::size_t first_of_second)
+      : surface_(surface), system_(system), work_(system.make_workspace()), at_(surface.rest.size()) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& t : surface.triangles) {
+      if (t[0] >= first_of_second)
+        others_.push_back(t);
+      else
+        corners.insert(corners.end(), t.begin(), t.end());
+    }
+    for (std::uint32_t i = 0; i < at_.size(); ++i) all_.push_back(i);
+    first_ = first_of_second;
+    mesh_.emplace(Points(surface.rest).first(first_), corners);
+  }
+  long meets(const State& state) {
+    surface_.points->points().place(surface_.points->curves().pairs(system_, state, *work_), all_, at_);
+    mesh_->refit(Points(at_).first(first_));
+    long met = 0;
+    for (const auto& [a, b, c] : others_)
+      met += mesh_->relation(exact::triangle({at_[a], at_[b], at_[c]})).relation != exact::Relation::free;
+    return met;
+  }
+
+ private:
+  const ContactSurface& surface_;
+  const System& system_;
+  System::WorkspacePtr work_;
+  std::vector<Vec3> at_;
+  std::vector<std::uint32_t> all_;
+  std::vector<std::array<std::uint32_t, 3>> others_;
+  std::size_t first_ = 0;
+  std::optional<exact::Surface> mesh_;
+};
+
+/// One leaf lies free above another, which is clamped at its foot, and falls on it.
+TEST(SurfaceSelf, ALeafFallsOnALeafAndMeetsNoTriangle) {
+  Sheets sheets;
+  const Rod rod = test::straight_rod(8, 1e8, 0.012, 400.0);
+  const test::Leaf leaf = test::leaf(1.0, 0.15, 20, 4);
+  const double height = 0.1, skin = 0.004;
+  sheets.add(leaf, rod, Vec3::Zero());
+  sheets.add(leaf, rod, Vec3(0.5, -0.45, height + 2 * skin), about_z(1.2));
+  const ContactSurface surface = sheets.surface(skin);
+  Scene scene;
+  scene.rods = sheets.rods;
+  scene.anchors.push_back({.rod = 0, .node = 0});
+  scene.forces = {std::make_shared<SurfaceSelfContact>(surface, Law{.stiffness = 2e6, .range = 0.004}),
+                  std::make_shared<Gravity>(Vec3(0, 0, -9.81))};
+  const System system(scene);
+  SimulationOptions options;
+  options.tolerance = 1e-6;
+  ExactParts parts(surface, system, leaf.points.size());
+  Simulation simulation(system, system.rest_state(), options);
+  long met = 0, in_contact = 0;
+  double least = 1.0;
+  simulation.on_progress([&](double) {
+    const auto& memory = dynamic_cast<const SurfaceSelfMemory&>(*simulation.state().memory.at(0));
+    if (memory.touches.empty()) return true;
+    ++in_contact;
+    for (const SelfTouch& touch : memory.touches) least = std::min(least, touch.gap);
+    met += parts.meets(simulation.state());
+    return true;
+  });
+  const Report report = simulation.run(0.4);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  double mass = 0.0;
+  for (const double m : rod.mass) mass += m;
+  const double off = report.last.total() - report.first.total() - report.work;
+  const auto& memory = dynamic_cast<const SurfaceSelfMemory&>(*simulation.state().memory.at(0));
+  std::cout << in_contact << " steps in contact, evaluations " << report.evaluations << ", energy off by "
+            << off / (mass * 9.81 * height) << " of the drop, least gap " << least << ", searches "
+            << memory.searches << ", contacts " << memory.begun << "\n";
+  EXPECT_EQ(met, 0);
+  EXPECT_GT(in_contact, 10);
+  EXPECT_GT(least, 0.0);
+  EXPECT_LE(std::abs(off), 1e-4 * mass * 9.81 * height);
+}
+
+/// What was on one side and is on the other has come through, however fast.
+TEST(SurfaceSelf, RefusesAJumpThrough) {
+  Random random(5);
+  const Sheets sheets = crossed(0.05);
+  const SurfaceSelfContact contact(sheets.surface(kSkin), law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
+  int through = 0, beside = 0;
+  for (int round = 0; round < 100; ++round) {
+    Shown s = shown_of(sheets.rods, random, 0.002, 0.0);
+    const double up = random.uniform(0.0, 3.0);
+    for (std::size_t i = 9; i < 18; ++i) s.p[i].z() += up;
+    s.memory = contact.remember(s.view(), nullptr);
+    for (std::size_t i = 9; i < 18; ++i) {
+      if (round % 2 == 0)
+        s.p[i].z() -= 2.0 * up + 0.2;
+      else
+        s.p[i].x() += 10.0 * up + 0.1;
+    }
+    std::vector<Vec3> force(s.p.size(), Vec3::Zero()), torque = force;
+    std::size_t refused = Loads::kNone;
+    contact.add(s.view(), {force, torque, &refused});
+    (round % 2 == 0 ? through : beside) += refused != Loads::kNone;
+  }
+  EXPECT_EQ(through, 50);
+  EXPECT_EQ(beside, 0);
+}
+
+/// A strip whose ends are thrown at each other, free in the air.
+TEST(SurfaceSelf, AFoldDoesNotPassThroughItself) {
+  const Rod rod = test::straight_rod(12, 2e5, 0.02, 400.0);
+  Sheets sheets;
+  sheets.add(test::leaf(1.0, 0.1, 36, 4), rod, Vec3::Zero());
+  const double skin = 0.01;
+  const ContactSurface surface = sheets.surface(skin);
+  Scene scene;
+  scene.rods = sheets.rods;
+  scene.forces = {std::make_shared<SurfaceSelfContact>(surface, Law{.stiffness = 3e5, .range = 0.01})};
+  const System system(scene);
+  State state = system.rest_state();
+  for (int i = 0; i <= 12; ++i) {
+    const double s = i / 12.0 - 0.5;
+    state.y.segment<3>(3 * 13 + 3 * i) = Vec3(-30.0 * s * std::abs(s), 4.0 * s, 12.0 * std::abs(s));
+  }
+  Simulation simulation(system, state, {.tolerance = 1e-5});
+  double least = 1.0;
+  long in_contact = 0;
+  simulation.on_progress([&](double) {
+    const auto& memory = dynamic_cast<const SurfaceSelfMemory&>(*simulation.state().memory.at(0));
+    for (const SelfTouch& touch : memory.touches) least = std::min(least, touch.gap);
+    in_contact += !memory.touches.empty();
+    return true;
+  });
+  const Report report = simulation.run(0.3);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  std::cout << in_contact << " steps in contact, least gap " << least << "\n";
+  EXPECT_GT(in_contact, 10);
+  EXPECT_GT(least, 0.0);
+}
+
+TEST(SurfaceSelf, RefusesWhatBeginsInContactAndWhatIsNoSurface) {
+  Random random(6);
+  const Sheets sheets = crossed(-0.001);
+  const Shown s = shown_of(sheets.rods, random, 0.0, 0.0);
+  const SurfaceSelfContact within(sheets.surface(kSkin), law_of(Law::Kind::barrier, kRange, 0, 0));
+  EXPECT_THROW(within.remember(s.view(), nullptr), InvalidInput);
+  ContactSurface spoilt = sheets.surface(kSkin);
+  spoilt.triangles[2][0] = 99999;
+  EXPECT_THROW(SurfaceSelfContact(spoilt, law_of(Law::Kind::barrier, kRange, 0, 0)), InvalidInput);
+  EXPECT_THROW(SurfaceSelfContact(sheets.surface(kSkin), law_of(Law::Kind::barrier, -1.0, 0, 0)),
+               InvalidInput);
+}
+
+}  // namespace
+}  // namespace tendril::contact
