@@ -140,8 +140,7 @@ TEST(SurfaceSelf, WeighsAreas) {
       for (Vec3& q : sheets.rods[1].q) q = at + 0.5 * (q - at);
       const SurfaceSelfContact contact(sheets.surface(skin), law);
       const Shown s = shown_of(sheets.rods, random, 0.0, 0.0);
-      const double ratio =
-          contact.energy(s.view()) / (area * law.stiffness * potential(law, gap).value);
+      const double ratio = contact.energy(s.view()) / (area * law.stiffness * potential(law, gap).value);
       std::cout << "range " << range << ", turned " << turned << ": " << ratio << " of the area's\n";
       EXPECT_GT(ratio, 0.6);
       EXPECT_LT(ratio, 1.6);

@@ -65,6 +65,7 @@ VtkGrid contact_grid(const scene::Snapshot& snapshot) {
   Meetings all;
   all.add(snapshot.contacts);
   all.add(snapshot.mesh_contacts);
+  all.add(snapshot.mesh_self_contacts);
   all.add(snapshot.rod_contacts);
   VtkGrid grid(all.point);
   for (std::uint32_t i = 0; i < all.point.size(); ++i) grid.add_cell(VtkCell::vertex, {i});
@@ -76,7 +77,7 @@ VtkGrid contact_grid(const scene::Snapshot& snapshot) {
 }
 
 bool has_contact(const scene::SceneFile& file) {
-  return file.contact || file.mesh_contact || file.self_contact;
+  return file.contact || file.mesh_contact.make || file.mesh_self_contact.make || file.self_contact;
 }
 
 }  // namespace

@@ -46,6 +46,11 @@ void ContactTables::add(const scene::Snapshot& snapshot) {
     append(mesh_contacts_, c.body);
     append_meeting(mesh_contacts_, c);
   }
+  for (const scene::MeshSelfContactPoint& c : snapshot.mesh_self_contacts) {
+    mesh_self_contacts_ += time;
+    for (const std::size_t face : c.face) append(mesh_self_contacts_, face);
+    append_meeting(mesh_self_contacts_, c);
+  }
   for (const scene::RodContactPoint& c : snapshot.rod_contacts) {
     rod_contacts_ += time;
     for (const std::size_t i : {0, 1}) {

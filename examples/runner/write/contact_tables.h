@@ -18,6 +18,8 @@ class ContactTables {
   const std::string& contacts() const { return contacts_; }
   /// A line for each output and point of the mesh in contact.
   const std::string& mesh_contacts() const { return mesh_contacts_; }
+  /// A line for each output and two places of the mesh in contact.
+  const std::string& mesh_self_contacts() const { return mesh_self_contacts_; }
   /// A line for each output and pair of points of rods in contact.
   const std::string& rod_contacts() const { return rod_contacts_; }
 
@@ -27,6 +29,8 @@ class ContactTables {
       "time,rod,node,fraction,body,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
   std::string mesh_contacts_ =
       "time,face,body,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
+  std::string mesh_self_contacts_ =
+      "time,face,other_face,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,friction_y,friction_z,sticks\n";
   std::string rod_contacts_ =
       "time,rod,node,fraction,other_rod,other_node,other_fraction,gap,px,py,pz,nx,ny,nz,fx,fy,fz,friction_x,"
       "friction_y,friction_z,sticks\n";

@@ -70,9 +70,10 @@ void Recorder::write_trajectory() {
   const Phases::Timer timer(phases_, Phases::write);
   write("trajectory.csv", trajectory_.csv());
   if (file_.self_contact) write("rod_contacts.csv", contact_.rod_contacts());
+  if (file_.mesh_self_contact.make) write("mesh_self_contacts.csv", contact_.mesh_self_contacts());
   if (file_.bodies.empty()) return;
   write("bodies.csv", contact_.bodies());
-  if (file_.make_mesh_contact)
+  if (file_.mesh_contact.make)
     write("mesh_contacts.csv", contact_.mesh_contacts());
   else
     write("contacts.csv", contact_.contacts());

@@ -80,10 +80,27 @@ struct MeshContactPoint {
   bool sticks;       ///< friction below mu N
 };
 
-/// The contact of a mesh with the scene's solids, made once the mesh is bound: of vertices, where they rest,
-/// and triangles.
+/// Two places of the scene's mesh in contact with each other.
+struct MeshSelfContactPoint {
+  std::array<std::size_t, 2> face;  ///< of the mesh: one that each is on
+  double gap;                       ///< between the two skins [length]
+  Vec3 point;                       ///< half way
+  Vec3 normal;                      ///< from the second to the first, unit
+  Vec3 force;                       ///< on the first, friction included
+  Vec3 friction;                    ///< of it
+  bool sticks;                      ///< friction below mu N
+};
+
+/// A contact of a mesh, made once the mesh is bound: of vertices, where they rest, and triangles.
 using MeshContact =
     std::function<std::shared_ptr<const Force>(std::shared_ptr<const RodPoints>, const std::vector<Vec3>&,
                                                const std::vector<std::array<std::uint32_t, 3>>&)>;
+
+/// A contact of the scene's mesh, which waits for it.
+struct MeshForce {
+  MeshContact make = {};                  ///< empty where there is none
+  std::string place = {};                 ///< its JSON pointer
+  std::optional<std::size_t> force = {};  ///< its index among the scene's forces, once a SceneRun made it
+};
 
 }  // namespace tendril::scene

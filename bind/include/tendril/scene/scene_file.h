@@ -40,9 +40,8 @@ struct SceneFile {
   std::vector<std::string> force_places;     ///< and of each force
   std::vector<SceneBody> bodies;             ///< solids that rods meet
   std::optional<std::size_t> contact;        ///< index of their contact among the scene's forces
-  MeshContact make_mesh_contact;             ///< empty unless the mesh, not its rods, meets the solids
-  std::optional<std::size_t> mesh_contact;   ///< its index among the scene's forces, once a SceneRun made it
-  std::string mesh_contact_place;            ///< its JSON pointer
+  MeshForce mesh_contact;                    ///< where the mesh, not its rods, meets the solids
+  MeshForce mesh_self_contact;               ///< where it meets itself
   std::optional<std::size_t> self_contact;   ///< of that of rods with each other and themselves
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one

@@ -27,7 +27,8 @@ struct Snapshot {
   std::vector<SolidPose> bodies = {};                ///< of the scene's solids
   std::vector<ContactPoint> contacts = {};           ///< of rods with them
   std::vector<MeshContactPoint> mesh_contacts = {};  ///< of the mesh with them
-  std::vector<RodContactPoint> rod_contacts = {};    ///< of rods with each other and themselves
+  std::vector<MeshSelfContactPoint> mesh_self_contacts = {};  ///< and with itself
+  std::vector<RodContactPoint> rod_contacts = {};             ///< of rods with each other and themselves
 };
 
 /// Seconds of wall time, outputs not counted.

@@ -7,6 +7,7 @@
 #include <tendril/contact/rod_contact.h>
 #include <tendril/contact/rod_rod_contact.h>
 #include <tendril/contact/surface_contact.h>
+#include <tendril/contact/surface_self_contact.h>
 
 #include <algorithm>
 #include <cmath>
@@ -202,8 +203,8 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
     for (const Body& body : out.scene.bodies) heaviest = std::max(heaviest, body.mass);
     energy = (falling.mass + heaviest) * falling.g * falling.longest;
   }
-  out.mesh_contact_place = node.pointer();
-  out.make_mesh_contact = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
+  out.mesh_contact.place = node.pointer();
+  out.mesh_contact.make = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
                               const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     contact::Law of_area = law;
     if (law.stiffness == 0.0)
@@ -220,11 +221,46 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
   out.force_places.push_back(node.pointer());
 }
 
+/// A barrier, per area, that carries a tenth of what the heaviest rod gains when it falls by the longest, on
+/// what two edges that cross weigh (surface_self_contact.h): both^2 / (16 (both + range (2 skin + range))), of
+/// edges that have two thirds of a triangle's area each.
+double crossing_sheets_stiffness(double energy, double skin, double range, double triangle) {
+  const double both = 4.0 / 3.0 * triangle;
+  return kCarries * energy * 16.0 * (both + range * (2.0 * skin + range)) / (both * both * range * range);
+}
+
+/// Of the mesh with itself.
+void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
+  const double skin = node.at("skin").positive();
+  contact::Law law;
+  read_rest(node, law);
+  law.range = node.has("range") ? node.at("range").positive() : skin;
+  double energy = 0.0;
+  law.stiffness = node.has("stiffness") ? node.at("stiffness").positive() : 0.0;
+  if (law.stiffness == 0.0) {
+    const Falling falling = falling_of(node, out);
+    energy = falling.heaviest * falling.g * falling.longest;
+  }
+  out.mesh_self_contact.place = node.pointer();
+  out.mesh_self_contact.make = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
+                                   const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    contact::Law of_area = law;
+    const double triangle =
+        area_of(rest, triangles) / static_cast<double>(std::max<std::size_t>(1, triangles.size()));
+    if (law.stiffness == 0.0)
+      of_area.stiffness = crossing_sheets_stiffness(energy, skin, law.range, triangle);
+    return std::make_shared<contact::SurfaceSelfContact>(
+        contact::ContactSurface{std::move(points), rest, triangles, skin}, of_area);
+  };
+}
+
 /// Of rods with each other and themselves.
 void read_self_contact(const JsonNode& file, SceneFile& out) {
   if (!file.has("self_contact")) return;
   const JsonNode node = file.at("self_contact");
   if (node.text_or("response", "barrier") == "off") return;
+  if (node.text_or("of", "rods") == "mesh") return read_mesh_self_contact(node, out);
+  if (node.has("skin")) node.at("skin").refuse("of rods", "\"of\": \"mesh\" beside it");
   const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   std::vector<contact::RodJoint> joints;
   for (const Joint& joint : out.scene.joints)
@@ -291,10 +327,20 @@ std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state)
 
 std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile& file, const State& state) {
   std::vector<MeshContactPoint> result;
-  const auto* memory = memory_of<contact::SurfaceMemory>(file.mesh_contact, state);
+  const auto* memory = memory_of<contact::SurfaceMemory>(file.mesh_contact.force, state);
   if (memory == nullptr) return result;
   for (const contact::SurfaceTouch& t : memory->touches)
     result.push_back({t.triangle, t.solid, t.gap, t.point, t.normal, t.force, t.friction, t.sticks});
+  return result;
+}
+
+std::vector<MeshSelfContactPoint> mesh_self_contacts_of(const SceneFile& file, const State& state) {
+  std::vector<MeshSelfContactPoint> result;
+  const auto* memory = memory_of<contact::SurfaceSelfMemory>(file.mesh_self_contact.force, state);
+  if (memory == nullptr) return result;
+  for (const contact::SelfTouch& t : memory->touches)
+    result.push_back(
+        {{t.triangle[0], t.triangle[1]}, t.gap, t.point, t.normal, t.force, t.friction, t.sticks});
   return result;
 }
 

@@ -17,6 +17,8 @@ System make_bare_system(const SceneFile& file);
 std::vector<ContactPoint> contacts_of(const SceneFile& file, const State& state);
 /// And the mesh; faces are triangles of MeshContact still.
 std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile& file, const State& state);
+/// And with itself, likewise.
+std::vector<MeshSelfContactPoint> mesh_self_contacts_of(const SceneFile& file, const State& state);
 /// And with each other and themselves.
 std::vector<RodContactPoint> rod_contacts_of(const SceneFile& file, const State& state);
 

@@ -15,6 +15,9 @@ std::vector<ContactPoint> contacts_of(const SceneFile&, const State&) {
 std::vector<MeshContactPoint> mesh_contacts_of(const SceneFile&, const State&) {
   return {};
 }
+std::vector<MeshSelfContactPoint> mesh_self_contacts_of(const SceneFile&, const State&) {
+  return {};
+}
 std::vector<RodContactPoint> rod_contacts_of(const SceneFile&, const State&) {
   return {};
 }

@@ -132,7 +132,9 @@ std::optional<std::size_t> index_of(const std::string& place, const std::string&
 std::string pointer_of(const SceneFile& file, const std::string& place) {
   if (const auto rod = index_of(place, "rods")) return "/curve_pairs/" + std::to_string(*rod);
   if (place == "start") return file.start_place;
-  if (place.rfind("contact", 0) == 0 && file.make_mesh_contact) return file.mesh_contact_place;
+  if (place.rfind("contact", 0) == 0)
+    for (const MeshForce* of_mesh : {&file.mesh_contact, &file.mesh_self_contact})
+      if (of_mesh->make) return of_mesh->place;
   if (place.rfind("contact", 0) == 0 && file.contact) return file.force_places[*file.contact];
   if (const auto body = index_of(place, "bodies"))
     for (const SceneBody& one : file.bodies)
@@ -200,10 +202,11 @@ System make_bare_system(const SceneFile& file) {
 }
 
 System make_system(const SceneFile& file) {
-  if (file.make_mesh_contact && !file.mesh_contact)
-    throw SceneError({file.path, file.mesh_contact_place, line_of(file.text, file.mesh_contact_place)},
-                     "contact of a mesh that is not bound",
-                     "a run of a scene with a mesh; or contact of rods");
+  for (const MeshForce* of_mesh : {&file.mesh_contact, &file.mesh_self_contact})
+    if (of_mesh->make && !of_mesh->force)
+      throw SceneError({file.path, of_mesh->place, line_of(file.text, of_mesh->place)},
+                       "contact of a mesh that is not bound",
+                       "a run of a scene with a mesh; or contact of rods");
   return make_bare_system(file);
 }
 

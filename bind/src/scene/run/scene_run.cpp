@@ -35,7 +35,7 @@ SolidPose pose_of(const SceneBody& body, const std::vector<BodyView>& free, doub
 /// returned, a triangle each.
 std::vector<std::size_t> let_meet(const BoundMesh& mesh, SceneFile& file) {
   std::vector<std::size_t> face_of;
-  if (!file.make_mesh_contact) return face_of;
+  if (!file.mesh_contact.make && !file.mesh_self_contact.make) return face_of;
   const bind::PolygonMesh& at_rest = mesh.mesh();
   std::vector<bool> still(at_rest.points.size(), false);
   for (const std::size_t i : mesh.out_of_reach()) still[i] = true;
@@ -52,10 +52,12 @@ std::vector<std::size_t> let_meet(const BoundMesh& mesh, SceneFile& file) {
     auto points = std::make_shared<RodPoints>(
         RodCurves(file.scene.rods, file.options.degree, file.options.parametrisation), file.bound_to,
         std::make_shared<bind::BindingPoints>(mesh.binding()));
-    auto force = file.make_mesh_contact(std::move(points), at_rest.points, triangles);
-    file.mesh_contact = file.scene.forces.size();
-    file.scene.forces.push_back(std::move(force));
-    file.force_places.push_back(file.mesh_contact_place);
+    for (MeshForce* of_mesh : {&file.mesh_contact, &file.mesh_self_contact}) {
+      if (!of_mesh->make) continue;
+      of_mesh->force = file.scene.forces.size();
+      file.scene.forces.push_back(of_mesh->make(points, at_rest.points, triangles));
+      file.force_places.push_back(of_mesh->place);
+    }
   } catch (const InvalidInput& error) {
     throw in_scene(file, error);
   }
@@ -77,7 +79,7 @@ struct SceneRun::Implementation : Follower {
   int threads;
   RunSeconds seconds;
   std::optional<BoundMesh> mesh;
-  std::vector<std::size_t> contact_face;  ///< of the triangles that meet solids
+  std::vector<std::size_t> contact_face;  ///< of the triangles in contact
   System system;
   Simulation simulation;
   System::WorkspacePtr work;
@@ -117,6 +119,9 @@ struct SceneRun::Implementation : Follower {
     out.contacts = contacts_of(file, state);
     out.mesh_contacts = mesh_contacts_of(file, state);
     for (MeshContactPoint& at : out.mesh_contacts) at.face = contact_face[at.face];
+    out.mesh_self_contacts = mesh_self_contacts_of(file, state);
+    for (MeshSelfContactPoint& at : out.mesh_self_contacts)
+      for (std::size_t& face : at.face) face = contact_face[face];
     out.rod_contacts = rod_contacts_of(file, state);
     if (mesh) {
       const Stopwatch watch(seconds.update);

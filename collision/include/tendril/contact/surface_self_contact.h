@@ -27,6 +27,12 @@ struct TENDRIL_CONTACT_API SurfaceSelfMemory : ForceMemory {
   long placed = 0;                 ///< vertices deformed, from step to step
 };
 
+/// What of a surface meets what.
+enum class Meets {
+  all,          ///< parts each other, and each itself
+  other_parts,  ///< parts each other alone: no fold is felt, and leaves that do not fold cost less
+};
+
 struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 
 /// Contact of a bound mesh with itself: of its parts with each other (what edges connect is a part) and of
@@ -59,7 +65,8 @@ class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {
   /// Throws InvalidInput for numbers and indices out of range, and a mesh without area.
   /// \param surface  that meets itself; parts are kept apart by twice its skin
   /// \param law      its stiffness is per area
-  SurfaceSelfContact(ContactSurface surface, const Law& law);
+  /// \param which    of its parts
+  SurfaceSelfContact(ContactSurface surface, const Law& law, Meets which = Meets::all);
   ~SurfaceSelfContact() override;
 
   void add(const StateView& state, const Loads& loads) const override;

@@ -13,8 +13,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-SelfModel::SelfModel(ContactSurface of, const Law& how)
-    : surface(checked(std::move(of))), law(checked(how)), mesh(surface) {}
+SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
+    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {}
 
 SelfPose SelfModel::pose(std::vector<CurvePair> pairs) const {
   SelfPose result{std::move(pairs), {}, {}};
@@ -82,7 +82,7 @@ void PosedSelf::choose_list() {
     bool holds = true;
     for (std::size_t i = 0; i < motions_.size(); ++i) {
       most = std::max(most, motions_[i]);
-      holds = holds && kept_->since_search[i] + motions_[i] <= 0.5 * kept_->list->skin;
+      holds = holds && kept_->since_search[i] + motions_[i] <= kept_->list->margin[i];
     }
     if (holds) {
       list_ = kept_->list;
@@ -94,7 +94,9 @@ void PosedSelf::choose_list() {
   const std::vector<Vec3> at = model_.place(pairs_);
   sound_ = all_finite(at);
   if (!sound_) return;
-  list_ = model_.search({pairs_, {}, {}}, at, model_.barrier() ? 2.0 * most : 0.0);
+  const bool wide = model_.barrier() && kept_;
+  list_ = model_.search({pairs_, {}, {}}, at,
+                        wide ? motions_ : std::vector<double>(model_.mesh.spans.size(), 0.0));
   fresh_ = true;
 }
 

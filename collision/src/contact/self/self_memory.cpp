@@ -12,9 +12,9 @@
 namespace tendril::contact {
 namespace {
 
-// A search serves while what moves stays within half the skin: some steps' motion, and no less than what it
-// takes to come out of the range.
-constexpr double kSkinOfRange = 4.0, kSkinOfStep = 16.0;
+// A search serves while what moves stays within its margin: some steps' motion, and no less than what it takes
+// to come out of the range.
+constexpr double kMarginOfRange = 2.0, kMarginOfStep = 8.0;
 
 /// The ledger at a new accepted state.
 class SelfKeeper {
@@ -39,33 +39,29 @@ class SelfKeeper {
     ledger_->looked_at += meetings.looked_at;
     for (const SelfResponse& meeting : meetings.all) add(meeting, surface);
     sort_by_key(ledger_->meetings);
-    const double step = most(surface.motions());
     ledger_->pose = model_.pose(std::move(surface.pairs()));
-    if (!serves(surface, step))
-      search(step);
-    else
+    if (serves(surface))
       carry_on(surface);
+    else
+      search(surface.motions());
     return std::move(ledger_);
   }
 
  private:
-  static double most(std::span<const double> values) {
-    double result = 0.0;
-    for (const double x : values) result = std::max(result, x);
-    return result;
-  }
-
   /// The list of the last accepted state holds here, and is likely to for some steps more.
-  bool serves(const PosedSelf& surface, double step) {
+  bool serves(const PosedSelf& surface) {
     if (!before_ || surface.share_list() != before_->list) return false;
     ledger_->since_search = model_.motions(before_->list->pose, ledger_->pose.pairs);
-    return 0.5 * before_->list->skin - most(ledger_->since_search) > 2.0 * step;
+    for (std::size_t i = 0; i < ledger_->since_search.size(); ++i)
+      if (!(before_->list->margin[i] - ledger_->since_search[i] > 2.0 * surface.motions()[i])) return false;
+    return true;
   }
 
-  void search(double step) {
+  void search(const std::vector<double>& step) {
     const std::vector<Vec3> at = model_.place(ledger_->pose.pairs);
-    const double skin = std::max(kSkinOfRange * model_.law.range, kSkinOfStep * step);
-    ledger_->list = model_.search(ledger_->pose, at, skin);
+    std::vector<double> margin(model_.mesh.spans.size(), kMarginOfRange * model_.law.range);
+    for (std::size_t i = 0; i < step.size(); ++i) margin[i] = std::max(margin[i], kMarginOfStep * step[i]);
+    ledger_->list = model_.search(ledger_->pose, at, std::move(margin));
     ledger_->since_search.assign(model_.mesh.spans.size(), 0.0);
     for (const SelfGroup& group : ledger_->list->groups) ledger_->slack.push_back(group.slack);
     ledger_->pair_slack = ledger_->list->slack;

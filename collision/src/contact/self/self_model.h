@@ -33,10 +33,10 @@ struct SelfPose {
   std::vector<Placement> going;
 };
 
-/// Pairs that may come near each other while no vertex moves by more than half the skin from where it was.
+/// Pairs that may come near each other while what each span holds moves by no more than its margin.
 struct SelfList {
-  SelfPose pose;  ///< when searched
-  double skin = 0.0;
+  SelfPose pose;               ///< when searched
+  std::vector<double> margin;  ///< per span
   std::vector<SelfGroup> groups;
   std::vector<SelfPair> faces, edges;  ///< of vertices of the mesh and its faces; of its edges
   PairSlacks slack;                    ///< when searched
@@ -45,10 +45,11 @@ struct SelfList {
 };
 
 struct SelfModel {
-  SelfModel(ContactSurface surface, const Law& law);
+  SelfModel(ContactSurface surface, const Law& law, Meets which);
 
   ContactSurface surface;
   Law law;
+  Meets which;
   SelfMesh mesh;
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
@@ -62,8 +63,9 @@ struct SelfModel {
   double measured(std::size_t span, std::span<const CurvePair> before, std::span<const CurvePair> now) const;
   /// Of a patch: a blended vertex moves as a mean of the points it is made of.
   double of_patch(std::uint32_t patch, std::span<const double> motions) const;
-  /// Pairs nearer than where response begins and the skin. `at` are all vertices.
-  std::shared_ptr<const SelfList> search(SelfPose pose, std::span<const Vec3> at, double skin) const;
+  /// Pairs nearer than where response begins and both margins. `at` are all vertices.
+  std::shared_ptr<const SelfList> search(SelfPose pose, std::span<const Vec3> at,
+                                         std::vector<double> margin) const;
   std::vector<Vec3> place(std::span<const CurvePair> pairs) const;
   /// Two places of one part that rest this near each other are left out.
   double left_out(double first_side, double second_side) const {

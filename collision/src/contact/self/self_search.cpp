@@ -1,6 +1,7 @@
 #include <tendril/collision/box_tree.h>
 
 #include <limits>
+#include <utility>
 
 #include "contact/foot.h"
 #include "self_model.h"
@@ -19,14 +20,15 @@ Box widened(Box box, double by) {
 /// Fills a list.
 class SelfSearch {
  public:
-  SelfSearch(const SelfModel& model, std::span<const Vec3> at, double skin, SelfList& list)
-      : model_(model), mesh_(model.mesh), at_(at), far_(model.meets() + skin), list_(list) {}
+  SelfSearch(const SelfModel& model, std::span<const Vec3> at, SelfList& list)
+      : model_(model), mesh_(model.mesh), at_(at), list_(list), of_group_(at.size(), 0) {}
 
   void run() {
     std::vector<Box> wide;
     for (const SelfPatch& patch : mesh_.patches) {
       boxes_.push_back(box_of(patch.corners, at_));
-      wide.push_back(widened(boxes_.back(), 0.5 * far_));
+      margin_.push_back(model_.of_patch(static_cast<std::uint32_t>(boxes_.size() - 1), list_.margin));
+      wide.push_back(widened(boxes_.back(), 0.5 * model_.meets() + margin_.back()));
       rest_.push_back(resting(patch));
     }
     const collision::BoxTree tree(wide);
@@ -74,12 +76,14 @@ class SelfSearch {
   bool keeps_apart(std::size_t p, std::size_t q) const {
     const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
     if (first.part != second.part) return false;
+    if (model_.which == Meets::other_parts) return true;
     const Resting &a = rest_[p], &b = rest_[q];
     const double least = 1.5 * model_.meets();
     if ((a.centre - b.centre).norm() + a.radius + b.radius < least) return true;
-    const double room = least_left(first, second) - far_;
+    const double room = least_left(first, second) - far(p, q);
     return room > 0.0 && a.turned.determinant() > 0.5 && strays(first, second, a) < 0.5 * room;
   }
+  double far(std::size_t p, std::size_t q) const { return model_.meets() + margin_[p] + margin_[q]; }
   /// What two places of the patches that are not left out rest apart at least.
   double least_left(const SelfPatch& first, const SelfPatch& second) const {
     const auto least = [&](const SelfPatch& patch) {
@@ -108,38 +112,59 @@ class SelfSearch {
 
   void look(std::uint32_t p, std::uint32_t q) {
     const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
+    far_ = far(p, q);
+    if (p != q && (parted_across(first, second) || parted_across(second, first))) return;
     same_part_ = first.part == second.part;
     slack_ = kInfinite;
-    const std::size_t faces = list_.faces.size(), edges = list_.edges.size(), members = list_.members.size();
+    const std::size_t faces = list_.faces.size(), edges = list_.edges.size();
     faces_of(first, second, boxes_[q]);
     if (p != q) faces_of(second, first, boxes_[p]);
-    edges_of(first, second, p == q);
+    edges_of(near_box(first, boxes_[q]), p == q ? first.edges : near_box(second, boxes_[p]), p == q);
     if (list_.faces.size() == faces && list_.edges.size() == edges) return;
-    gather_members(faces, edges, members);
+    gather_members(faces, edges);
     list_.groups.push_back(
         {p, q, list_.faces.size(), list_.edges.size(), list_.members.size(), slack_ - model_.meets()});
   }
 
-  void gather_members(std::size_t faces, std::size_t edges, std::size_t members) {
-    auto& out = list_.members;
+  /// Across the middle face of the first: boxes about what is flat and aslant hold much besides.
+  bool parted_across(const SelfPatch& first, const SelfPatch& second) const {
+    const auto& [a, b, c] = model_.surface.triangles[first.faces[first.faces.size() / 2]];
+    const Vec3 n = (at_[b] - at_[a]).cross(at_[c] - at_[a]).stableNormalized();
+    double low = kInfinite, high = -kInfinite, other_low = kInfinite, other_high = -kInfinite;
+    for (const std::uint32_t v : first.corners) {
+      const double at = n.dot(at_[v]);
+      low = std::min(low, at), high = std::max(high, at);
+    }
+    for (const std::uint32_t v : second.corners) {
+      const double at = n.dot(at_[v]);
+      other_low = std::min(other_low, at), other_high = std::max(other_high, at);
+    }
+    const double enough = far_ * (1.0 + 1e-9);
+    return other_low - high > enough || low - other_high > enough;
+  }
+
+  void gather_members(std::size_t faces, std::size_t edges) {
     for (; faces < list_.faces.size(); ++faces) {
-      out.push_back(list_.faces[faces].first);
-      for (const std::uint32_t v : model_.surface.triangles[list_.faces[faces].second]) out.push_back(v);
+      gather(list_.faces[faces].first);
+      for (const std::uint32_t v : model_.surface.triangles[list_.faces[faces].second]) gather(v);
     }
     for (; edges < list_.edges.size(); ++edges)
       for (const std::uint32_t e : {list_.edges[edges].first, list_.edges[edges].second})
-        for (const std::uint32_t v : mesh_.edges[e].end) out.push_back(v);
-    const auto from = out.begin() + static_cast<std::ptrdiff_t>(members);
-    std::sort(from, out.end());
-    out.erase(std::unique(from, out.end()), out.end());
+        for (const std::uint32_t v : mesh_.edges[e].end) gather(v);
+  }
+  void gather(std::uint32_t vertex) {
+    std::uint32_t& last = of_group_[vertex];
+    if (std::exchange(last, static_cast<std::uint32_t>(list_.groups.size() + 1)) <= list_.groups.size())
+      list_.members.push_back(vertex);
   }
 
   void number_members() {
-    list_.used = list_.members;
-    std::sort(list_.used.begin(), list_.used.end());
-    list_.used.erase(std::unique(list_.used.begin(), list_.used.end()), list_.used.end());
     std::vector<std::uint32_t> number(at_.size());
-    for (std::uint32_t i = 0; i < list_.used.size(); ++i) number[list_.used[i]] = i;
+    for (std::uint32_t v = 0; v < at_.size(); ++v) {
+      if (of_group_[v] == 0) continue;
+      number[v] = static_cast<std::uint32_t>(list_.used.size());
+      list_.used.push_back(v);
+    }
     for (std::uint32_t& v : list_.members) v = number[v];
   }
 
@@ -171,9 +196,19 @@ class SelfSearch {
     return d < model_.left_out(mesh_.longest[v], mesh_.face_longest[f]);
   }
 
-  void edges_of(const SelfPatch& first, const SelfPatch& second, bool same) {
-    for (const std::uint32_t e : first.edges)
-      for (const std::uint32_t f : second.edges) {
+  std::vector<std::uint32_t> near_box(const SelfPatch& of, const Box& box) const {
+    const Box near = widened(box, far_);
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t e : of.edges) {
+      const Vec3 &a = at_[mesh_.edges[e].end[0]], &b = at_[mesh_.edges[e].end[1]];
+      if (near.meets({a.cwiseMin(b), a.cwiseMax(b)})) result.push_back(e);
+    }
+    return result;
+  }
+  void edges_of(const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& second,
+                bool same) {
+    for (const std::uint32_t e : first)
+      for (const std::uint32_t f : second) {
         if (same && f <= e) continue;
         const auto& [a, b] = mesh_.edges[e].end;
         const auto& [c, d] = mesh_.edges[f].end;
@@ -206,10 +241,13 @@ class SelfSearch {
   const SelfModel& model_;
   const SelfMesh& mesh_;
   std::span<const Vec3> at_;
-  double far_;
   SelfList& list_;
   std::vector<Box> boxes_;
   std::vector<Resting> rest_;
+  std::vector<double> margin_;           ///< per patch
+  std::vector<std::uint32_t> of_group_;  ///< per vertex: one more than the last group it was gathered for
+  // Of the two patches that are looked at:
+  double far_ = 0.0;  ///< how far from each other pairs may be
   bool same_part_ = false;
   double slack_ = 0.0;
 };
@@ -217,11 +255,11 @@ class SelfSearch {
 }  // namespace
 
 std::shared_ptr<const SelfList> SelfModel::search(SelfPose pose, std::span<const Vec3> at,
-                                                  double skin) const {
+                                                  std::vector<double> margin) const {
   auto list = std::make_shared<SelfList>();
   list->pose = std::move(pose);
-  list->skin = skin;
-  SelfSearch(*this, at, skin, *list).run();
+  list->margin = std::move(margin);
+  SelfSearch(*this, at, *list).run();
   return list;
 }
 

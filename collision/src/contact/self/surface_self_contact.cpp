@@ -8,8 +8,8 @@
 
 namespace tendril::contact {
 
-SurfaceSelfContact::SurfaceSelfContact(ContactSurface surface, const Law& law)
-    : model_(std::make_unique<const SelfModel>(std::move(surface), law)) {}
+SurfaceSelfContact::SurfaceSelfContact(ContactSurface surface, const Law& law, Meets which)
+    : model_(std::make_unique<const SelfModel>(std::move(surface), law, which)) {}
 SurfaceSelfContact::~SurfaceSelfContact() = default;
 
 void SurfaceSelfContact::add(const StateView& state, const Loads& loads) const {

@@ -9,19 +9,29 @@ namespace {
 
 using Column = std::array<Vec3, kMaxDegree + 1>;
 
-/// Control points of a span, of its derivative, and of n.
+/// Bezier points of a span, of its derivative by a parameter of its own, and of n.
 struct Controls {
   Column at, rate, offset;
 };
 
 template <class Place>
 Controls controls(const UsedSpan& span, const CurvePair& pair, const Place& place) {
-  const Points u = pair.primary().control_points(), v = pair.orientation().control_points();
-  Controls out;
+  const Points u = pair.primary().control_points().subspan(span.first, span.count);
+  const Points v = pair.orientation().control_points().subspan(span.first, span.count);
+  Column at, offset;
   for (std::size_t i = 0; i < span.count; ++i) {
-    out.at[i] = place(u[span.first + i]);
-    out.offset[i] = place(v[span.first + i]) - out.at[i];
-    if (i > 0) out.rate[i - 1] = span.rise[i - 1] * (out.at[i] - out.at[i - 1]);
+    at[i] = place(u[i]);
+    offset[i] = place(v[i]) - at[i];
+  }
+  Controls out;
+  for (std::size_t k = 0; k < span.count; ++k) {
+    out.at[k].setZero();
+    out.offset[k].setZero();
+    for (std::size_t i = 0; i < span.count; ++i) {
+      out.at[k] += span.bezier[k][i] * at[i];
+      out.offset[k] += span.bezier[k][i] * offset[i];
+    }
+    if (k > 0) out.rate[k - 1] = static_cast<double>(span.count - 1) * (out.at[k] - out.at[k - 1]);
   }
   return out;
 }
@@ -47,17 +57,32 @@ Vec3 mean(const Column& a, std::size_t count) {
 
 }  // namespace
 
+/// Bezier point k of a span [a, b] is its polar form at p - k times a and k times b [Ramshaw 1989], by de
+/// Boor's recurrence with another argument at each level.
 UsedSpan::UsedSpan(std::uint32_t of, const KnotVector& knots, int span)
     : pair(of),
       first(static_cast<std::uint32_t>(span - knots.degree())),
       count(static_cast<std::uint32_t>(knots.degree() + 1)),
-      rise{} {
+      bezier{} {
   const auto p = static_cast<std::size_t>(knots.degree());
-  for (std::size_t i = 0; i < p; ++i)
-    rise[i] = static_cast<double>(p) / (knots.knots()[first + i + p + 1] - knots.knots()[first + i + 1]);
+  const std::span<const double> u = knots.knots();
+  for (std::size_t k = 0; k <= p; ++k)
+    for (std::size_t unit = 0; unit <= p; ++unit) {
+      std::array<double, kMaxDegree + 1> d{};
+      d[unit] = 1.0;
+      for (std::size_t r = 1; r <= p; ++r) {
+        const double at = u[r <= p - k ? first + p : first + p + 1];
+        for (std::size_t i = p; i >= r; --i) {
+          const std::size_t j = first + i;
+          const double part = (at - u[j]) / (u[j + p - r + 1] - u[j]);
+          d[i] = (1.0 - part) * d[i - 1] + part * d[i];
+        }
+      }
+      bezier[k][unit] = d[p];
+    }
 }
 
-/// c' lies in the hull of its control points and so goes at least as far along their mean as the least of
+/// c' lies in the hull of its Bezier points and so goes at least as far along their mean as the least of
 /// them does; n likewise along e, the part of its mean across that of c'. Of n' = n - (n . Z) Z along e
 /// that leaves at least min n . e - |n| max |Z . e|.
 SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
@@ -78,9 +103,12 @@ double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& bef
   if (!(shape.least_speed > 0.0 && shape.least_across > 0.0)) return std::numeric_limits<double>::infinity();
   const Controls a = controls(span, before.pair, [&](const Vec3& x) { return before.solid.to_local(x); });
   const Controls b = controls(span, now.pair, [&](const Vec3& x) { return now.solid.to_local(x); });
-  const double turn = 2.0 * widest(a.rate, b.rate, span.count - 1) / shape.least_speed;
-  const double about =
-      2.0 * (2.0 * widest(a.offset, b.offset, span.count) + turn * shape.most_offset) / shape.least_across;
+  const double speed = widest(a.rate, b.rate, span.count - 1);
+  if (!(speed < shape.least_speed)) return std::numeric_limits<double>::infinity();
+  const double turn = speed / (shape.least_speed - speed);
+  const double across = widest(a.offset, b.offset, span.count) + turn * shape.most_offset;
+  if (!(across < shape.least_across)) return std::numeric_limits<double>::infinity();
+  const double about = across / (shape.least_across - across);
   // Rounding of what is computed here and of vertices is far below this share of the sizes.
   double size = span.reach;
   for (std::size_t i = 0; i < span.count; ++i) size = std::max({size, a.at[i].norm(), b.at[i].norm()});
@@ -103,8 +131,9 @@ Placement going_with(const UsedSpan& span, const CurvePair& pair) {
 double motion(const UsedSpan& span, const SpanShape& shape, const CurvePair& before, const Placement& from,
               const CurvePair& now, const Placement& to) {
   double radius = 0.0;
-  for (const Vec3& x : before.primary().control_points().subspan(span.first, span.count))
-    radius = std::max(radius, (x - from.position).squaredNorm());
+  const Controls c = controls(span, before, [](const Vec3& x) { return x; });
+  for (std::size_t i = 0; i < span.count; ++i)
+    radius = std::max(radius, (c.at[i] - from.position).squaredNorm());
   const double turned = (to.rotation - from.rotation).norm() / std::sqrt(2.0);
   const double carried = (to.position - from.position).norm() + turned * (std::sqrt(radius) + span.reach);
   return carried * (1.0 + 1e-9) + motion(span, shape, {before, from}, {now, to});

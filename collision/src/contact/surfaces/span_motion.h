@@ -12,9 +12,11 @@ namespace tendril::contact {
 struct UsedSpan {
   UsedSpan(std::uint32_t pair, const KnotVector& knots, int span);
 
-  std::uint32_t pair, first, count;     ///< its control points [first, first + count)
-  std::array<double, kMaxDegree> rise;  ///< of each difference of them in the derivative
-  double reach = 0.0;                   ///< largest |u| + |v| + |w| of what is bound to it
+  std::uint32_t pair, first, count;  ///< its control points [first, first + count)
+  /// Its Bezier points, row by row, from these control points: the hull of what it alone is, while control
+  /// points are also about the spans beside it.
+  std::array<std::array<double, kMaxDegree + 1>, kMaxDegree + 1> bezier;
+  double reach = 0.0;  ///< largest |u| + |v| + |w| of what is bound to it
 };
 
 /// What bounds a frame's turns from a pose: at least |c'| and |n'|, n' the part of n = c_D - c across c', and
@@ -31,14 +33,15 @@ struct PosedFrom {
 };
 
 /// How far a point that is bound to the span moved at most between two poses, each seen from its solid;
-/// infinite where the shape before says nothing. With dU, dD, dN the largest changes of control points, of
-/// those of c' and of n: Z = c' / |c'| turned by at most a = 2 dD / |c'|, the unit vector along n' by at most
-/// b = 2 (2 dN + a |n|) / |n'|, the axis across both by a + b; so a point moved by at most
-/// dU + (|u| + |v| + |w|) (a + b).
+/// infinite where the shape before says nothing, or what changed is as large as it. Unit vectors along x and y
+/// are no farther apart than |x - y| / min(|x|, |y|): with dU, dD, dN the largest changes of Bezier points, of
+/// those of c' and of n, Z = c' / |c'| moved by at most a = dD / (|c'| - dD); n' by at most d = dN + a |n|, since
+/// projections along two directions differ by the sine between them; the unit vector along it by at most b =
+/// d / (|n'| - d), the axis across both by a + b; so a point by at most dU + (|u| + |v| + |w|) (a + b).
 double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
               const PosedFrom& now);
 
-/// A frame that goes with a span, about the mean of its control points: the axes of the means of c' and n.
+/// A frame that goes with a span, about the mean of its Bezier points: the axes of the means of c' and n.
 Placement going_with(const UsedSpan& span, const CurvePair& pair);
 /// The same as motion() between two poses as the world sees them, sharper where the span moves as one: how
 /// far the frame that goes with it takes what it holds, and how far that moves as seen from there.
