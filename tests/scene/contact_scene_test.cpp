@@ -164,6 +164,53 @@ TEST(ContactScene, ABallMeetsTheMeshBesideItsRod) {
   EXPECT_GT(run.snapshot().bodies[1].position.z(), 0.54);
 }
 
+/// Two blades in one mesh, about a rod each.
+bind::PolygonMesh two_blades() {
+  bind::PolygonMesh mesh;
+  for (const double z : {0.5, 0.53})
+    for (int i = 0; i <= 8; ++i)
+      for (const double y : {-0.1, 0.0, 0.1}) mesh.points.emplace_back(0.1 * i, y, z);
+  for (std::uint32_t blade : {0U, 27U})
+    for (std::uint32_t i = 0; i < 8; ++i)
+      for (std::uint32_t j = 0; j < 2; ++j) {
+        const std::uint32_t a = blade + 3 * i + j;
+        for (const std::uint32_t corner : {a, a + 3, a + 4, a + 1}) mesh.corners.push_back(corner);
+        mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+      }
+  return mesh;
+}
+
+TEST(ContactScene, PartsOfTheMeshMeetEachOther) {
+  for (const char* meets : {"all", "other_parts"}) {
+    Json json = scene();
+    json.erase("bodies");
+    json.erase("contact");
+    Json& lower = json["curve_pairs"][0];
+    lower.erase("viscosity");
+    Json upper = lower;
+    upper["name"] = "upper";
+    upper.erase("anchors");
+    lower["points"] = {{0, 0, 0.5}, {0.4, 0, 0.5}, {0.8, 0, 0.5}};
+    upper["points"] = {{0, 0, 0.53}, {0.4, 0, 0.53}, {0.8, 0, 0.53}};
+    json["curve_pairs"].push_back(upper);
+    json["bound_to"] = {"leaf", "upper"};
+    json["self_contact"] = {{"of", "mesh"}, {"skin", 0.004}, {"meets", meets}};
+    json["simulation"]["duration"] = 0.1;
+    scene::SceneRun run(read(json), two_blades());
+    double pressed = 0.0, least = 1.0;
+    const Report report = run.run([&](const scene::Snapshot& now) {
+      for (const scene::MeshSelfContactPoint& c : now.mesh_self_contacts) {
+        EXPECT_NE(c.face[0] < 16, c.face[1] < 16);
+        pressed = std::max(pressed, std::abs(c.force.z()));
+        least = std::min(least, c.gap);
+      }
+    });
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    EXPECT_GT(pressed, 0.0);
+    EXPECT_GT(least, 0.0);
+  }
+}
+
 /// A rod falls on a pyramid of a file, which a plate of the same height would hold up as high.
 TEST(ContactScene, ASolidMayBeAMesh) {
   const std::string folder = testing::TempDir();

@@ -232,6 +232,8 @@ double crossing_sheets_stiffness(double energy, double skin, double range, doubl
 /// Of the mesh with itself.
 void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
   const double skin = node.at("skin").positive();
+  const auto which =
+      node.text_or("meets", "all") == "all" ? contact::Meets::all : contact::Meets::other_parts;
   contact::Law law;
   read_rest(node, law);
   law.range = node.has("range") ? node.at("range").positive() : skin;
@@ -250,7 +252,7 @@ void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
     if (law.stiffness == 0.0)
       of_area.stiffness = crossing_sheets_stiffness(energy, skin, law.range, triangle);
     return std::make_shared<contact::SurfaceSelfContact>(
-        contact::ContactSurface{std::move(points), rest, triangles, skin}, of_area);
+        contact::ContactSurface{std::move(points), rest, triangles, skin}, of_area, which);
   };
 }
 
@@ -260,7 +262,8 @@ void read_self_contact(const JsonNode& file, SceneFile& out) {
   const JsonNode node = file.at("self_contact");
   if (node.text_or("response", "barrier") == "off") return;
   if (node.text_or("of", "rods") == "mesh") return read_mesh_self_contact(node, out);
-  if (node.has("skin")) node.at("skin").refuse("of rods", "\"of\": \"mesh\" beside it");
+  for (const char* key : {"skin", "meets"})
+    if (node.has(key)) node.at(key).refuse("of rods", "\"of\": \"mesh\" beside it");
   const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   std::vector<contact::RodJoint> joints;
   for (const Joint& joint : out.scene.joints)

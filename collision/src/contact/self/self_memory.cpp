@@ -14,7 +14,7 @@ namespace {
 
 // A search serves while what moves stays within its margin: some steps' motion, and no less than what it takes
 // to come out of the range.
-constexpr double kMarginOfRange = 2.0, kMarginOfStep = 8.0;
+constexpr double kMarginOfRange = 4.0, kMarginOfStep = 16.0;
 
 /// The ledger at a new accepted state.
 class SelfKeeper {

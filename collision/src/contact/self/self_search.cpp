@@ -29,13 +29,27 @@ class SelfSearch {
       boxes_.push_back(box_of(patch.corners, at_));
       margin_.push_back(model_.of_patch(static_cast<std::uint32_t>(boxes_.size() - 1), list_.margin));
       wide.push_back(widened(boxes_.back(), 0.5 * model_.meets() + margin_.back()));
-      rest_.push_back(resting(patch));
+      if (model_.which == Meets::all) rest_.push_back(resting(patch));
     }
-    const collision::BoxTree tree(wide);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
+    const auto take = [&](std::uint32_t a, std::uint32_t b) {
+      if (a > b) std::swap(a, b);
+      if (wide[a].meets(wide[b]) && !keeps_apart(a, b)) near.emplace_back(a, b);
+    };
+    const std::vector<Part> parts = parts_of(wide);
+    std::vector<Box> part_boxes;
+    for (const Part& part : parts) part_boxes.push_back(part.box);
+    const collision::BoxTree tree(part_boxes);
     tree.pairs(tree, [&](std::size_t a, std::size_t b) {
-      if (a <= b && !keeps_apart(a, b)) near.emplace_back(a, b);
+      if (a < b) look_for_patches(parts[a], parts[b], wide, take);
     });
+    if (model_.which == Meets::all) {
+      const collision::BoxTree all(wide);
+      all.pairs(all, [&](std::size_t a, std::size_t b) {
+        const auto p = static_cast<std::uint32_t>(a), q = static_cast<std::uint32_t>(b);
+        if (p <= q && mesh_.patches[p].part == mesh_.patches[q].part) take(p, q);
+      });
+    }
     std::sort(near.begin(), near.end());
     for (const auto& [p, q] : near) look(p, q);
     number_members();
@@ -49,6 +63,31 @@ class SelfSearch {
     Mat3 turned;  ///< zero where a face has no area
   };
 
+  /// What is connected: patches [begin, end).
+  struct Part {
+    std::uint32_t begin, end;
+    Box box;
+  };
+  /// Patches of a part follow each other.
+  std::vector<Part> parts_of(const std::vector<Box>& wide) const {
+    std::vector<Part> parts;
+    for (std::uint32_t p = 0; p < wide.size(); ++p) {
+      if (p == 0 || mesh_.patches[p].part != mesh_.patches[p - 1].part) parts.push_back({p, p, wide[p]});
+      parts.back().end = p + 1;
+      parts.back().box = collision::join(parts.back().box, wide[p]);
+    }
+    return parts;
+  }
+  template <class Take>
+  static void look_for_patches(const Part& a, const Part& b, const std::vector<Box>& wide, Take&& take) {
+    std::vector<std::uint32_t> of_b;
+    for (std::uint32_t q = b.begin; q < b.end; ++q)
+      if (wide[q].meets(a.box)) of_b.push_back(q);
+    for (std::uint32_t p = a.begin; p < a.end; ++p) {
+      if (!wide[p].meets(b.box)) continue;
+      for (const std::uint32_t q : of_b) take(p, q);
+    }
+  }
   static Box box_of(std::span<const std::uint32_t> vertices, std::span<const Vec3> at) {
     Box box{at[vertices[0]], at[vertices[0]]};
     for (const std::uint32_t v : vertices) {
@@ -76,7 +115,6 @@ class SelfSearch {
   bool keeps_apart(std::size_t p, std::size_t q) const {
     const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
     if (first.part != second.part) return false;
-    if (model_.which == Meets::other_parts) return true;
     const Resting &a = rest_[p], &b = rest_[q];
     const double least = 1.5 * model_.meets();
     if ((a.centre - b.centre).norm() + a.radius + b.radius < least) return true;

@@ -30,7 +30,7 @@ class SelfTouches {
     const PairSlacks* slacks = of_ledger ? &kept_->pair_slack : nullptr;
     for (const std::uint32_t g : surface_.awake()) {
       const SelfGroup before = g == 0 ? SelfGroup{} : groups[g - 1];
-      const double moved = surface_.moved(groups[g]);
+      const double moved = moved_of(g);
       far_ = model_.meets() + (model_.barrier() ? moved : 0.0);
       for (std::size_t i = before.faces; i < groups[g].faces && !out_.closed; ++i)
         if (!slacks || !(slacks->faces[i] > moved)) look_at_face(surface_.list().faces[i]);
@@ -61,6 +61,20 @@ class SelfTouches {
     double value = 1.0;
     Vec3 by_first = Vec3::Zero(), by_second = Vec3::Zero();
   };
+
+  /// How far the two sides of a group's pairs moved together since the ledger was kept: what bounds say, or
+  /// what vertices did.
+  double moved_of(std::uint32_t g) {
+    const SelfList& list = surface_.list();
+    const double bound = surface_.moved(list.groups[g]);
+    if (!kept_ || bound < 4.0 * model_.law.range) return bound;
+    double most = 0.0;
+    for (std::size_t i = g == 0 ? 0 : list.groups[g - 1].members; i < list.groups[g].members; ++i) {
+      const std::uint32_t v = list.used[list.members[i]];
+      most = std::max(most, (at(v) - surface_.before(v)).squaredNorm());
+    }
+    return std::min(bound, 2.0 * std::sqrt(most) * (1.0 + 1e-9));
+  }
 
   const Vec3& at(std::uint32_t v) const { return surface_.at(v); }
   std::array<Vec3, 3> corners(std::uint32_t face) const {
