@@ -221,9 +221,9 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
   out.force_places.push_back(node.pointer());
 }
 
-/// A barrier, per area, that carries a tenth of what the heaviest rod gains when it falls by the longest, on
-/// what two edges that cross weigh (surface_self_contact.h): both^2 / (16 (both + range (2 skin + range))), of
-/// edges that have two thirds of a triangle's area each.
+/// A barrier, per area, that carries a tenth of what the heaviest rod gains when it falls by the longest,
+/// on what two edges that cross weigh (surface_self_contact.h): both^2 / (16 (both + range (2 skin +
+/// range))), of edges that have two thirds of a triangle's area each.
 double crossing_sheets_stiffness(double energy, double skin, double range, double triangle) {
   const double both = 4.0 / 3.0 * triangle;
   return kCarries * energy * 16.0 * (both + range * (2.0 * skin + range)) / (both * both * range * range);

@@ -36,30 +36,32 @@ enum class Meets {
 struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 
 /// Contact of a bound mesh with itself: of its parts with each other (what edges connect is a part) and of
-/// each with itself. What meets are vertices with triangles and edges with edges, as in [Li et al. 2020]: with
-/// d their distance, both skins off it, b of Law, A a third of the area at rest of the triangles about a
+/// each with itself. What meets are vertices with triangles and edges with edges, as in [Li et al. 2020]:
+/// with d their distance, both skins off it, b of Law, A a third of the area at rest of the triangles about a
 /// vertex or an edge, the potential is kappa times the sum of
 ///   A_x / 4 ( sum_faces b - sum_edges (k - 1) b + sum_vertices (1 - faces + sum_edges (k - 1)) b )
 /// over vertices x, the sums over what of the surface is within the range of x, k an edge's faces among it;
-/// and of m (A_e + A_f) / 8 b over pairs of edges. The first counts the nearest place once, be it on a face,
-/// an edge or a vertex, and is smooth beside folds; two flat sheets have about kappa b per area in all. m is
-/// 1, and goes to 0 with the angle between edges below 1.8 degrees [Li et al. 2020] 4: their ends keep those
-/// apart. So no triangle comes nearer to another than both skins.
+/// and of m B^2 / (16 (B + range (2 skin + range))) b over pairs of edges, B = A_e + A_f. The first counts
+/// the nearest place once, be it on a face, an edge or a vertex, and is smooth beside folds; two flat sheets
+/// have about kappa b per area in all. m is 1, and goes to 0 with the angle between edges below 1.8 degrees
+/// [Li et al. 2020] 4: their ends keep those apart. So no triangle comes nearer to another than both skins.
+/// Where triangles are small, at a leaf's tip, so is what a barrier can stop: see Law::stiffness.
 ///
 /// Left out are two places of one part that rest nearer than 1.5 times the distance at which they would meet,
 /// or than the sum of the longest sides there: the two sides of a leaf, and what a fold cannot be sharper
 /// than.
 ///
-/// Between accepted steps vertices move straight; a state that a barrier cannot be in, or could not have come
-/// to, is refused. Linear momentum is kept, angular momentum but for friction, which acts on either side where
-/// it is, not where the skins meet.
+/// Between accepted steps vertices move straight; a state that a barrier cannot be in, or could not have
+/// come to, is refused. Linear momentum is kept, angular momentum but for friction, which acts on either
+/// side where it is, not where the skins meet.
 ///
 /// Vertices are deformed only where something is near: pairs are sought now and then, within a distance that
 /// bounds on the motion of spans of curve-pairs (span by span, each seen from a frame that goes with it) say
 /// nothing has crossed since, and looked at where these let them have come within the range.
 ///
-/// Cost: of an evaluation some 2 us a curve-pair and what is near; of a search an update of the mesh and some
-/// 0.1 us a triangle. Implicit steps couple all nodes of these rods, up to some 400, and take differences.
+/// Cost: of an evaluation some 2 us a curve-pair, and what is near; of a search, every dozen steps or so, an
+/// update of the mesh and some 0.1 us a triangle. Implicit steps couple all nodes of these rods, up to some
+/// 400, and take differences.
 class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {
  public:
   /// Throws InvalidInput for numbers and indices out of range, and a mesh without area.

@@ -12,8 +12,8 @@
 namespace tendril::contact {
 namespace {
 
-// A search serves while what moves stays within its margin: some steps' motion, and no less than what it takes
-// to come out of the range.
+// A search serves while what moves stays within its margin: some steps' motion, and no less than what it
+// takes to come out of the range.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 16.0;
 
 /// The ledger at a new accepted state.

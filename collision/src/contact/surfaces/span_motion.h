@@ -33,11 +33,12 @@ struct PosedFrom {
 };
 
 /// How far a point that is bound to the span moved at most between two poses, each seen from its solid;
-/// infinite where the shape before says nothing, or what changed is as large as it. Unit vectors along x and y
-/// are no farther apart than |x - y| / min(|x|, |y|): with dU, dD, dN the largest changes of Bezier points, of
-/// those of c' and of n, Z = c' / |c'| moved by at most a = dD / (|c'| - dD); n' by at most d = dN + a |n|, since
-/// projections along two directions differ by the sine between them; the unit vector along it by at most b =
-/// d / (|n'| - d), the axis across both by a + b; so a point by at most dU + (|u| + |v| + |w|) (a + b).
+/// infinite where the shape before says nothing, or what changed is as large as it. Unit vectors along x
+/// and y are no farther apart than |x - y| / min(|x|, |y|): with dU, dD, dN the largest changes of Bezier
+/// points, of those of c' and of n, Z = c' / |c'| moved by at most a = dD / (|c'| - dD); n' by at most d =
+/// dN + a |n|, since projections along two directions differ by the sine between them; the unit vector
+/// along it by at most b = d / (|n'| - d), the axis across both by a + b; so a point by at most dU + (|u| +
+/// |v| + |w|) (a + b).
 double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
               const PosedFrom& now);
 
