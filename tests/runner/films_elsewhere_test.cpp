@@ -52,6 +52,11 @@ TEST(PlayerInChromium, VerticesInThePageAreTheLibrarysAndItPlays) {
   EXPECT_TRUE(last["playing"]);
   EXPECT_TRUE(last["paused"]);
   EXPECT_EQ(last["ended"], 12);
+  EXPECT_LT(last["turned"][0], -0.1);
+  EXPECT_GT(last["turned"][1], 0.05);
+  EXPECT_NEAR(last["nearer"], 0.5, 0.01);
+  EXPECT_EQ(last["clicked"], 6);
+  EXPECT_TRUE(last["home"]);
   EXPECT_EQ(last["switches"], Json({"mesh", "curve-pairs", "frames", "tubes", "ambiguous"}));
   for (const std::string look : {"_all.png", "_light.png", "_dark.png"})
     EXPECT_GT(std::filesystem::file_size(folder / ("blended" + look)), 20000u) << look;

@@ -9,7 +9,7 @@ const {chromium} = require(`${modules}/playwright-core`);
 
 async function see(browser, file) {
   const name = path.basename(file, '.html'), faults = [];
-  const page = await browser.newPage({viewport: {width: 1100, height: 780}, colorScheme: 'light'});
+  const page = await browser.newPage({viewport: {width: 1100, height: 780}, colorScheme: 'light', hasTouch: true});
   page.on('console', message => { if (['error', 'warning'].includes(message.type())) faults.push(message.text()); });
   page.on('pageerror', error => faults.push(error.message));
   page.on('request', request => { if (!/^(file|data|blob):/.test(request.url())) faults.push(`asked for ${request.url()}`); });
@@ -40,6 +40,31 @@ async function play(page) {
   return {stepped, playing, paused, ended: await film('moment')};
 }
 
+// By mouse and by two fingers: whether the view turned and came nearer, and to which output a click on a plot went.
+async function touch(page) {
+  const view = () => page.evaluate('window.tendril.then(film => film.view)');
+  const first = await view();
+  await page.mouse.move(400, 250);
+  await page.mouse.down();
+  await page.mouse.move(480, 270, {steps: 3});
+  await page.mouse.up();
+  const turned = await view();
+  const session = await page.context().newCDPSession(page);
+  const fingers = (type, apart) => session.send('Input.dispatchTouchEvent', {
+    type, touchPoints: type === 'touchEnd' ? [] : [{x: 400 - apart, y: 250, id: 0}, {x: 400 + apart, y: 250, id: 1}]});
+  await fingers('touchStart', 40);
+  for (const apart of [50, 65, 80]) await fingers('touchMove', apart);
+  await fingers('touchEnd');
+  const near = await view();
+  const plot = await page.locator('#energy').boundingBox();
+  await page.mouse.click(plot.x + plot.width / 2, plot.y + plot.height / 2);
+  const moment = await page.evaluate('window.tendril.then(film => film.moment)');
+  await page.mouse.dblclick(400, 250);
+  const home = await view();
+  return {turned: [turned.yaw - first.yaw, turned.pitch - first.pitch], nearer: near.distance / first.distance,
+          clicked: moment, home: home.distance === first.distance && home.yaw === first.yaw};
+}
+
 async function picture(page, name, last) {
   await page.evaluate(async k => (await window.tendril).show(k), Math.floor(last / 2));
   const inputs = await page.locator('#switches input').all();
@@ -59,7 +84,7 @@ async function picture(page, name, last) {
   const seen = [];
   for (const [k, file] of pages.entries()) {
     const {page, seen: one} = await see(browser, path.resolve(file));
-    if (k === pages.length - 1) Object.assign(one, await play(page), {switches: await picture(page, one.name, one.last)});
+    if (k === pages.length - 1) Object.assign(one, await play(page), await touch(page), {switches: await picture(page, one.name, one.last)});
     await page.close();
     seen.push(one);
   }

@@ -112,6 +112,7 @@ async function main() {
   return {
     film, last, play, show: to => { play(false); moment = to; render(); },
     get moment() { return moment; }, get playing() { return playing; },
+    get view() { return {yaw: orbit.yaw, pitch: orbit.pitch, distance: orbit.distance}; },
     points: () => scene.mesh ? Array.from(scene.mesh.read()) : [],
   };
 }
