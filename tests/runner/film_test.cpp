@@ -209,6 +209,22 @@ TEST(Player, PageHoldsMeshBindingAndControlPoints) {
   EXPECT_NEAR(at(13, stride - 7), tip, 1e-8) << last;
 }
 
+TEST(Player, PageHoldsEveryContact) {
+  const Folder folder;
+  const Outcome run = folder.run("run '" TENDRIL_SOURCE_DIR
+                                 "/examples/scenes/rope_over_rods.json"
+                                 "' --out out --no-pictures --player");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string table = bytes_of(folder / "out/rod_contacts.csv");
+  const auto lines = std::count(table.begin(), table.end(), '\n');
+  EXPECT_GT(lines, 10);
+  const Page page(bytes_of(folder / "out/rope_over_rods.html"));
+  std::int64_t contacts = 0;
+  for (const std::int64_t n : page.array("contact_count")) contacts += n;
+  EXPECT_EQ(contacts, lines - 1);
+  EXPECT_EQ(page.array("contact_ends").size(), 6 * static_cast<std::size_t>(contacts));
+}
+
 TEST(Player, IsWrittenOfRodsWithoutAMesh) {
   Json scene = bending();
   scene.erase("mesh");

@@ -32,6 +32,7 @@ void Film::take(const scene::Snapshot& snapshot) {
              snapshot.bodies, {}};
   add(snapshot.contacts, now.meetings);
   add(snapshot.mesh_contacts, now.meetings);
+  add(snapshot.mesh_self_contacts, now.meetings);
   add(snapshot.rod_contacts, now.meetings);
   moments_.push_back(std::move(now));
 }
