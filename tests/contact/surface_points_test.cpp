@@ -98,5 +98,53 @@ TEST(SpanMotion, BoundsWhatPointsMove) {
   EXPECT_GT(closest, 0.02);
 }
 
+/// Masses and directors anyhow, and moved anyhow, most of it together: nor by what bounds say that know the
+/// masses alone, or see each span from a frame that goes with it.
+TEST(SpanMotion, BoundsWhatRodsMove) {
+  Random random(9);
+  const Rod rod = test::straight_rod(7, 1e6, 0.01);
+  const RodCurves curves(std::span(&rod, 1));
+  const KnotVector& knots = curves.knots(0);
+  const auto interpolation = curves.interpolation(0);
+  double closest = 0.0, carried = 0.0;
+  for (int round = 0; round < 400; ++round) {
+    const double by = std::pow(10.0, random.uniform(-4.0, -1.0));
+    const Vec3 way = random.in_cube(by);
+    const Mat3 turned = Eigen::AngleAxisd(by, random.in_cube(1.0).normalized()).toRotationMatrix();
+    std::vector<Vec3> p, q, r, s;
+    RodMotion most;
+    for (std::size_t i = 0; i < 8; ++i) {
+      p.push_back(rod.p[i] + random.in_cube(0.01));
+      q.push_back(p.back() + rod.q[i] - rod.p[i] + random.in_cube(0.01));
+      r.push_back(turned * p[i] + way + random.in_cube(0.1 * by));
+      s.push_back(r[i] + turned * (q[i] - p[i]) + random.in_cube(0.1 * by));
+      most.mass = std::max(most.mass, (r[i] - p[i]).norm());
+      most.arm = std::max(most.arm, (s[i] - r[i] - q[i] + p[i]).norm());
+      if (i > 0) most.edge = std::max(most.edge, (r[i] - r[i - 1] - p[i] + p[i - 1]).norm());
+    }
+    const CurvePair before = curves.through(0, p, q), now = curves.through(0, r, s);
+    const int index = knots.degree() + round % 5;
+    UsedSpan span(0, knots, index);
+    span.reach = 0.1;
+    const double coarse = motion(gain_of(span, interpolation), span, shape_of(span, before), most);
+    const double fine =
+        motion(span, shape_of(span, before), before, going_with(span, before), now, going_with(span, now));
+    const double from = knots.knots()[static_cast<std::size_t>(index)];
+    const double to = knots.knots()[static_cast<std::size_t>(index + 1)];
+    for (int point = 0; point < 20; ++point) {
+      const AxialPoint at{random.uniform(from, to), random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05),
+                          0.0};
+      const double moved = (from_axial(now, at) - from_axial(before, at)).norm();
+      EXPECT_LE(moved, coarse);
+      EXPECT_LE(moved, fine);
+      closest = std::max(closest, moved / coarse);
+      carried = std::max(carried, moved / fine);
+    }
+  }
+  std::cout << "a point moved " << closest << " of the coarse bound, " << carried << " of the other\n";
+  EXPECT_GT(closest, 0.05);
+  EXPECT_GT(carried, 0.2);
+}
+
 }  // namespace
 }  // namespace tendril::contact

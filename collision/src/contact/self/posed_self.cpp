@@ -1,6 +1,7 @@
 #include "posed_self.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,7 +15,48 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
 SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
-    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {}
+    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {
+  std::vector<std::vector<std::vector<double>>> interpolation;
+  for (const std::size_t rod : points().rods()) interpolation.push_back(points().curves().interpolation(rod));
+  for (const UsedSpan& span : mesh.spans) gains.push_back(gain_of(span, interpolation[span.pair]));
+}
+
+SelfNodes SelfModel::nodes(const StateView& state) const {
+  SelfNodes result;
+  for (const std::size_t rod : points().rods()) {
+    const std::vector<Vec3> arms = points().curves().arms(state, rod);
+    const Points p = state.p.subspan(state.rods[rod].first, arms.size());
+    result.p.insert(result.p.end(), p.begin(), p.end());
+    result.arm.insert(result.arm.end(), arms.begin(), arms.end());
+  }
+  return result;
+}
+
+std::vector<double> SelfModel::coarse_motions(const SelfPose& before, const SelfNodes& then,
+                                              const StateView& now) const {
+  std::vector<RodMotion> rods;
+  std::size_t first = 0;
+  for (const std::size_t rod : points().rods()) {
+    const std::vector<Vec3> arms = points().curves().arms(now, rod);
+    const Points p = now.p.subspan(now.rods[rod].first, arms.size());
+    RodMotion most;
+    Vec3 last = Vec3::Zero();
+    for (std::size_t i = 0; i < arms.size(); ++i) {
+      const Vec3 way = p[i] - then.p[first + i];
+      most.mass = std::max(most.mass, way.squaredNorm());
+      if (i > 0) most.edge = std::max(most.edge, (way - last).squaredNorm());
+      most.arm = std::max(most.arm, (arms[i] - then.arm[first + i]).squaredNorm());
+      most.size = std::max({most.size, p[i].squaredNorm(), then.p[first + i].squaredNorm()});
+      last = way;
+    }
+    rods.push_back({std::sqrt(most.mass), std::sqrt(most.edge), std::sqrt(most.arm), std::sqrt(most.size)});
+    first += arms.size();
+  }
+  std::vector<double> result;
+  for (std::size_t i = 0; i < mesh.spans.size(); ++i)
+    result.push_back(motion(gains[i], mesh.spans[i], before.shapes[i], rods[mesh.spans[i].pair]));
+  return result;
+}
 
 SelfPose SelfModel::pose(std::vector<CurvePair> pairs) const {
   SelfPose result{std::move(pairs), {}, {}};
@@ -63,14 +105,28 @@ std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
   return result;
 }
 
-PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept)
-    : model_(model), state_(state), kept_(kept), pairs_(model.points().pairs(state)) {
+PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept, bool curves)
+    : model_(model), state_(state), kept_(kept) {
+  if (!curves && nothing_near()) return;
+  pairs_ = model.points().pairs(state);
   sound_ = !pairs_.empty();
   if (!sound_) return;
   choose_list();
   if (!sound_) return;
   wake();
   place();
+}
+
+/// A first look, at masses and directors alone.
+bool PosedSelf::nothing_near() {
+  if (!kept_) return false;
+  motions_ = model_.coarse_motions(kept_->pose, kept_->nodes, state_);
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+    if (!(kept_->since_search[i] + motions_[i] <= kept_->list->margin[i])) return false;
+  list_ = kept_->list;
+  for (std::size_t g = 0; g < list_->groups.size(); ++g)
+    if (!(kept_->slack[g] > moved(list_->groups[g]))) return false;
+  return true;
 }
 
 /// That of the ledger while nothing can have come through its skin; else a new one, wide enough for what has

@@ -16,6 +16,7 @@ struct SelfMeeting {
 /// What is remembered besides what is told.
 struct SelfLedger final : SurfaceSelfMemory {
   SelfPose pose;
+  SelfNodes nodes;
   std::shared_ptr<const SelfList> list;
   std::vector<double> since_search;   ///< how far what each span holds moved at most
   std::vector<double> slack;          ///< per group
@@ -33,7 +34,8 @@ inline const SelfLedger* self_ledger_of(const ForceMemory* memory) {
 class PosedSelf {
  public:
   /// \param kept  null at the start
-  PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept);
+  /// \param curves  whether they are wanted even where nothing is near
+  PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept, bool curves = false);
 
   /// False where its curves cannot be computed.
   bool sound() const { return sound_; }
@@ -57,6 +59,7 @@ class PosedSelf {
   const std::vector<double>& motions() const { return motions_; }
 
  private:
+  bool nothing_near();
   void choose_list();
   void wake();
   void place();

@@ -30,7 +30,7 @@ class SelfKeeper {
   }
 
   std::shared_ptr<const SelfLedger> keep() {
-    PosedSelf surface(model_, state_, before_);
+    PosedSelf surface(model_, state_, before_, true);
     if (!surface.sound())
       throw InvalidInput("contact.surface", "vertices that cannot be computed",
                          "closer to the origin than 1e150");
@@ -39,6 +39,7 @@ class SelfKeeper {
     ledger_->looked_at += meetings.looked_at;
     for (const SelfResponse& meeting : meetings.all) add(meeting, surface);
     sort_by_key(ledger_->meetings);
+    ledger_->nodes = model_.nodes(state_);
     ledger_->pose = model_.pose(std::move(surface.pairs()));
     if (serves(surface))
       carry_on(surface);

@@ -44,6 +44,11 @@ struct SelfList {
   std::vector<std::uint32_t> used;     ///< vertices of the mesh that any pair has, ascending
 };
 
+/// Masses of a surface's rods and their orientation masses less them, rod by rod.
+struct SelfNodes {
+  std::vector<Vec3> p, arm;
+};
+
 struct SelfModel {
   SelfModel(ContactSurface surface, const Law& law, Meets which);
 
@@ -51,6 +56,7 @@ struct SelfModel {
   Law law;
   Meets which;
   SelfMesh mesh;
+  std::vector<SpanGain> gains;  ///< per span
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   const RodPoints& points() const { return *surface.points; }
@@ -60,6 +66,10 @@ struct SelfModel {
   SelfPose pose(std::vector<CurvePair> pairs) const;
   /// How far what each span holds moved at most.
   std::vector<double> motions(const SelfPose& before, std::span<const CurvePair> now) const;
+  SelfNodes nodes(const StateView& state) const;
+  /// The same as motions(), coarser and without curves: 0.1 us a rod.
+  std::vector<double> coarse_motions(const SelfPose& before, const SelfNodes& then,
+                                     const StateView& now) const;
   double measured(std::size_t span, std::span<const CurvePair> before, std::span<const CurvePair> now) const;
   /// Of a patch: a blended vertex moves as a mean of the points it is made of.
   double of_patch(std::uint32_t patch, std::span<const double> motions) const;

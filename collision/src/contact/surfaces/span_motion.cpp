@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tendril::contact {
 namespace {
@@ -99,20 +100,63 @@ SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
   return {speed, least_along(c.offset, span.count, across) - longest * aside / speed, longest};
 }
 
+namespace {
+
+/// The largest changes of Bezier points of c, of c' and of n.
+struct Changes {
+  double at, rate, offset;
+};
+
+/// a + b of the header.
+double turns(const SpanShape& shape, const Changes& most) {
+  if (!(most.rate < shape.least_speed)) return std::numeric_limits<double>::infinity();
+  const double turn = most.rate / (shape.least_speed - most.rate);
+  const double across = most.offset + turn * shape.most_offset;
+  if (!(across < shape.least_across)) return std::numeric_limits<double>::infinity();
+  return turn + across / (shape.least_across - across);
+}
+
+}  // namespace
+
+/// Weights of differences sum to 0, so that they are weights of edges: of edge j, less those of the masses up
+/// to j.
+SpanGain gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation) {
+  const std::size_t n = interpolation.size();
+  SpanGain gain{0.0, 0.0};
+  std::vector<double> before;
+  for (std::size_t k = 0; k < span.count; ++k) {
+    std::vector<double> row(n, 0.0);
+    for (std::size_t i = 0; i < span.count; ++i)
+      for (std::size_t j = 0; j < n; ++j) row[j] += span.bezier[k][i] * interpolation[span.first + i][j];
+    double sum = 0.0, edges = 0.0, so_far = 0.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      sum += std::abs(row[j]);
+      if (k == 0) continue;
+      so_far += row[j] - before[j];
+      if (j + 1 < n) edges += std::abs(so_far);
+    }
+    gain.at = std::max(gain.at, sum);
+    gain.rate = std::max(gain.rate, static_cast<double>(span.count - 1) * edges);
+    before = std::move(row);
+  }
+  return {gain.at * (1.0 + 1e-9), gain.rate * (1.0 + 1e-9)};
+}
+
+double motion(const SpanGain& gain, const UsedSpan& span, const SpanShape& shape, const RodMotion& rod) {
+  const double at = gain.at * rod.mass;
+  return (at + span.reach * turns(shape, {at, gain.rate * rod.edge, gain.at * rod.arm})) * (1.0 + 1e-9) +
+         1e-12 * (gain.at * rod.size + span.reach);
+}
+
 double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& before, const PosedFrom& now) {
-  if (!(shape.least_speed > 0.0 && shape.least_across > 0.0)) return std::numeric_limits<double>::infinity();
   const Controls a = controls(span, before.pair, [&](const Vec3& x) { return before.solid.to_local(x); });
   const Controls b = controls(span, now.pair, [&](const Vec3& x) { return now.solid.to_local(x); });
-  const double speed = widest(a.rate, b.rate, span.count - 1);
-  if (!(speed < shape.least_speed)) return std::numeric_limits<double>::infinity();
-  const double turn = speed / (shape.least_speed - speed);
-  const double across = widest(a.offset, b.offset, span.count) + turn * shape.most_offset;
-  if (!(across < shape.least_across)) return std::numeric_limits<double>::infinity();
-  const double about = across / (shape.least_across - across);
+  const double turned =
+      turns(shape, {0.0, widest(a.rate, b.rate, span.count - 1), widest(a.offset, b.offset, span.count)});
   // Rounding of what is computed here and of vertices is far below this share of the sizes.
   double size = span.reach;
   for (std::size_t i = 0; i < span.count; ++i) size = std::max({size, a.at[i].norm(), b.at[i].norm()});
-  return (widest(a.at, b.at, span.count) + span.reach * (turn + about)) * (1.0 + 1e-9) + 1e-12 * size;
+  return (widest(a.at, b.at, span.count) + span.reach * turned) * (1.0 + 1e-9) + 1e-12 * size;
 }
 
 Placement going_with(const UsedSpan& span, const CurvePair& pair) {

@@ -42,6 +42,22 @@ struct PosedFrom {
 double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
               const PosedFrom& now);
 
+/// By how much Bezier points of a span move at most, in units of how far the farthest mass of its rod does; and
+/// those of its derivative, in units of how much the edge between masses that changes most does.
+struct SpanGain {
+  double at, rate;
+};
+/// \param interpolation  of the rod, see RodCurves
+SpanGain gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation);
+/// How far masses of a rod moved at most, edges between them and orientation masses against them changed.
+struct RodMotion {
+  double mass = 0.0, edge = 0.0, arm = 0.0;
+  double size = 0.0;  ///< how far from the origin masses are
+};
+/// As motion() between two poses as the world sees them, without a look at the curves now.
+double motion(const SpanGain& gain, const UsedSpan& span, const SpanShape& shape_before,
+              const RodMotion& rod);
+
 /// A frame that goes with a span, about the mean of its Bezier points: the axes of the means of c' and n.
 Placement going_with(const UsedSpan& span, const CurvePair& pair);
 /// The same as motion() between two poses as the world sees them, sharper where the span moves as one: how

@@ -49,6 +49,11 @@ class TENDRIL_CORE_API RodCurves {
   /// How fast the control points of pair(state, rod) move, on the same knots: c' = sum N_i(t) of those of the
   /// primary curve is the velocity of the point c. Throws as pair() does.
   CurvePair rates(const StateView& state, std::size_t rod) const;
+  /// Of each node of a rod, its orientation mass less its mass at what a force sees. Throws as pair() does.
+  std::vector<Vec3> arms(const StateView& state, std::size_t rod) const;
+  /// The control points of a rod's curve from the masses it passes through: row by row, each as weights of
+  /// the masses that sum to 1. O(n^2).
+  std::vector<std::vector<double>> interpolation(std::size_t rod) const;
   /// By how much control points move at most, in units of how far the farthest mass of the rod does: the
   /// largest row sum of |N^-1|, N the matrix of the interpolation. O(n^2).
   double gain(std::size_t rod) const;
@@ -66,7 +71,6 @@ class TENDRIL_CORE_API RodCurves {
     std::vector<double> by_m, by_t;  ///< q - p in the rest frames
     std::vector<double> twist;       ///< of each edge at rest [rad]
   };
-  std::vector<Vec3> arms(const StateView& state, std::size_t rod) const;
 
   std::vector<One> rods_;
 };

@@ -139,17 +139,28 @@ CurvePair RodCurves::rates(const StateView& state, std::size_t rod) const {
   return through(rod, state.v.subspan(first, q.size()), q);
 }
 
-double RodCurves::gain(std::size_t rod) const {
+std::vector<std::vector<double>> RodCurves::interpolation(std::size_t rod) const {
   const One& one = rods_.at(rod);
-  std::vector<double> sum(one.by_m.size(), 0.0);
-  std::vector<Vec3> unit(sum.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < unit.size(); ++k) {
+  const std::size_t n = one.by_m.size();
+  std::vector<std::vector<double>> rows(n, std::vector<double>(n));
+  std::vector<Vec3> unit(n, Vec3::Zero());
+  for (std::size_t k = 0; k < n; ++k) {
     unit[k].x() = 1.0;
     const std::vector<Vec3> column = one.fit.solve(unit);
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::abs(column[i].x());
+    for (std::size_t i = 0; i < n; ++i) rows[i][k] = column[i].x();
     unit[k].x() = 0.0;
   }
-  return *std::max_element(sum.begin(), sum.end());
+  return rows;
+}
+
+double RodCurves::gain(std::size_t rod) const {
+  double most = 0.0;
+  for (const std::vector<double>& row : interpolation(rod)) {
+    double sum = 0.0;
+    for (const double weight : row) sum += std::abs(weight);
+    most = std::max(most, sum);
+  }
+  return most;
 }
 
 void RodCurves::add_loads(const StateView& state, std::size_t rod, const ControlForces& forces,
