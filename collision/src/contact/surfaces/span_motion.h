@@ -42,8 +42,8 @@ struct PosedFrom {
 double motion(const UsedSpan& span, const SpanShape& shape_before, const PosedFrom& before,
               const PosedFrom& now);
 
-/// By how much Bezier points of a span move at most, in units of how far the farthest mass of its rod does; and
-/// those of its derivative, in units of how much the edge between masses that changes most does.
+/// By how much Bezier points of a span move at most, in units of how far the farthest mass of its rod does;
+/// and those of its derivative, in units of how much the edge between masses that changes most does.
 struct SpanGain {
   double at, rate;
 };
