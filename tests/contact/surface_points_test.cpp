@@ -98,8 +98,8 @@ TEST(SpanMotion, BoundsWhatPointsMove) {
   EXPECT_GT(closest, 0.02);
 }
 
-/// Masses and directors anyhow, and moved anyhow, most of it or all of it together: nor by what bounds say that know the
-/// masses alone, or see each span from a frame that goes with it.
+/// Masses and directors anyhow, and moved anyhow, most of it or all of it together: nor by what bounds say
+/// that know the masses alone, or see each span from a frame that goes with it.
 TEST(SpanMotion, BoundsWhatRodsMove) {
   Random random(9);
   const Rod rod = test::straight_rod(7, 1e6, 0.01);

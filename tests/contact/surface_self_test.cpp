@@ -354,7 +354,7 @@ TEST(SurfaceSelf, LeavesInWindDoNotPassThroughEachOther) {
       met += test::meeting_pairs(bush, at);
       return true;
     });
-    const Report report = simulation.run(0.2);
+    const Report report = simulation.run(0.17);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
     std::cout << steps << " steps, " << in_contact << " in contact\n";
     EXPECT_EQ(met, 0);
