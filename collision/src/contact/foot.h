@@ -25,5 +25,20 @@ struct SegmentFeet {
 };
 /// One of two that are as near where the segments are parallel.
 SegmentFeet feet_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// From the second of these points to the first.
+inline Vec3 apart(const SegmentFeet& feet, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return a + feet.s * (b - a) - c - feet.t * (d - c);
+}
+
+/// A point is within `far` of the box about a triangle: what spares most pairs the rest.
+inline bool beside(const Vec3& x, const std::array<Vec3, 3>& t, double far) {
+  const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  return (low.array() - far <= x.array()).all() && (x.array() <= high.array() + far).all();
+}
+/// The boxes about two segments are within `far` of each other.
+inline bool beside(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double far) {
+  return (a.cwiseMin(b).array() - far <= c.cwiseMax(d).array()).all() &&
+         (c.cwiseMin(d).array() <= a.cwiseMax(b).array() + far).all();
+}
 
 }  // namespace tendril::contact

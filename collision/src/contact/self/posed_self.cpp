@@ -79,7 +79,8 @@ std::vector<double> SelfModel::motions(const SelfPose& before, std::span<const C
   return result;
 }
 
-/// Where a curve turns round within a span, bounds by its control points say nothing.
+/// Where a curve turns round within a span, bounds by its Bezier points say nothing, and an infinite one
+/// would refuse a state that is sound: what is bound to it is placed twice.
 double SelfModel::measured(std::size_t span, std::span<const CurvePair> before,
                            std::span<const CurvePair> now) const {
   const std::vector<std::uint32_t>& vertices = mesh.bound_to[span];
@@ -117,7 +118,8 @@ PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfL
   place();
 }
 
-/// A first look, at masses and directors alone.
+/// A first look, at masses and directors alone: in most evaluations of most scenes nothing is near, and
+/// making the curves of all rods would cost more than their dynamics.
 bool PosedSelf::nothing_near() {
   if (!kept_) return false;
   motions_ = model_.coarse_motions(kept_->pose, kept_->nodes, state_);
@@ -129,8 +131,8 @@ bool PosedSelf::nothing_near() {
   return true;
 }
 
-/// That of the ledger while nothing can have come through its skin; else a new one, wide enough for what has
-/// moved since the ledger was kept.
+/// That of the ledger while margins hold; else a new one for this state alone, wide enough for what has moved
+/// since the ledger was kept: what has passed by on the way is as much a meeting as what is near now.
 void PosedSelf::choose_list() {
   double most = 0.0;
   if (kept_) {
@@ -161,11 +163,13 @@ double PosedSelf::moved(const SelfGroup& group) const {
   return model_.of_patch(group.p, motions_) + model_.of_patch(group.q, motions_);
 }
 
+/// A list made here has no slacks of the ledger to compare with.
 void PosedSelf::wake() {
   for (std::uint32_t g = 0; g < list_->groups.size(); ++g)
     if (fresh_ || !(kept_->slack[g] > moved(list_->groups[g]))) awake_.push_back(g);
 }
 
+/// All vertices in one call: an update poses every span of every curve first.
 void PosedSelf::place() {
   if (awake_.empty()) return;
   std::vector<char> wanted(list_->used.size(), 0);

@@ -54,7 +54,6 @@ class PosedSelf {
   /// Where they were when the ledger was kept.
   const Vec3& before(std::uint32_t vertex);
   const Vec3& velocity(std::uint32_t vertex);
-  bool has_before() const { return kept_ != nullptr; }
   /// Bounds since the ledger was kept, per span; none at the start.
   const std::vector<double>& motions() const { return motions_; }
 
@@ -78,7 +77,7 @@ class PosedSelf {
 
 /// Places of the surface near each other.
 struct SelfNear {
-  std::array<std::uint32_t, 4> vertex;  ///< of the mesh; an unused one is 0 and has no weight
+  std::array<std::uint32_t, 4> vertex;  ///< of the mesh
   std::array<double, 4> weight;         ///< apart = sum weight_i vertex_i
   std::size_t of_first;                 ///< so many of them are of the first
   std::array<std::uint32_t, 2> face;    ///< one that each is on

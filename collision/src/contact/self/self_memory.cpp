@@ -39,6 +39,7 @@ class SelfKeeper {
     ledger_->looked_at += meetings.looked_at;
     for (const SelfResponse& meeting : meetings.all) add(meeting, surface);
     sort_by_key(ledger_->meetings);
+    // Last, since touches are those of the list and the ledger before.
     ledger_->nodes = model_.nodes(state_);
     ledger_->pose = model_.pose(std::move(surface.pairs()));
     if (serves(surface))
@@ -72,7 +73,8 @@ class SelfKeeper {
     for (const std::uint32_t v : ledger_->known) ledger_->at.push_back(at[v]);
   }
 
-  /// What was left less what has moved since, measured anew where something is awake.
+  /// What was left less what has moved since, measured anew where something is awake: bounds add up from step
+  /// to step and would wake everything in time.
   void carry_on(PosedSelf& surface) {
     ledger_->list = before_->list;
     const auto& groups = ledger_->list->groups;
@@ -120,8 +122,7 @@ class SelfKeeper {
         const auto& [a, b] = model_.mesh.edges[e].end;
         const auto& [c, d] = model_.mesh.edges[f].end;
         const SegmentFeet feet = feet_of(at(a), at(b), at(c), at(d));
-        edges[i] =
-            (at(a) + feet.s * (at(b) - at(a)) - at(c) - feet.t * (at(d) - at(c))).norm() - model_.meets();
+        edges[i] = apart(feet, at(a), at(b), at(c), at(d)).norm() - model_.meets();
       }
       least = std::min(least, edges[i]);
     }

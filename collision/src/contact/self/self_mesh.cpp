@@ -88,6 +88,7 @@ void SelfMesh::measure(const ContactSurface& surface) {
   }
 }
 
+/// By edges, not by places: what two leaves have at one place does not hold them together.
 void SelfMesh::find_parts(const ContactSurface& surface) {
   part.resize(surface.rest.size());
   std::iota(part.begin(), part.end(), 0U);
@@ -115,6 +116,7 @@ void SelfMesh::find_patches(const ContactSurface& surface) {
     list.of(v, of);
     for (const std::uint32_t span : of) bound_to[span].push_back(v);
   }
+  // A vertex and an edge are of one patch alone, that no pair is looked at twice.
   std::vector<char> vertex_taken(surface.rest.size(), 0), edge_taken(edges.size(), 0);
   for (const auto& [key, faces] : groups) {
     std::vector<Faces> parts;

@@ -17,7 +17,9 @@ Box widened(Box box, double by) {
   return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};
 }
 
-/// Fills a list.
+/// Fills a list: parts by their boxes, patches of two parts by theirs, then pairs. What depends on the rest
+/// alone is asked for anew each time: to keep it for all pairs that rest near would take more room than the
+/// mesh.
 class SelfSearch {
  public:
   SelfSearch(const SelfModel& model, std::span<const Vec3> at, SelfList& list)
@@ -50,6 +52,7 @@ class SelfSearch {
         if (p <= q && mesh_.patches[p].part == mesh_.patches[q].part) take(p, q);
       });
     }
+    // In an order of their own, not of the trees: sums over groups are the same whatever the boxes were.
     std::sort(near.begin(), near.end());
     for (const auto& [p, q] : near) look(p, q);
     number_members();
@@ -213,7 +216,7 @@ class SelfSearch {
       if (!near.holds(at_[v])) continue;
       for (const std::uint32_t f : with.faces) {
         const auto& [a, b, c] = model_.surface.triangles[f];
-        if (v == a || v == b || v == c || !beside(at_[v], at_[a], at_[b], at_[c])) continue;
+        if (v == a || v == b || v == c || !beside(at_[v], {at_[a], at_[b], at_[c]}, far_)) continue;
         const double d = (at_[v] - foot_on({at_[a], at_[b], at_[c]}, at_[v]).point).norm();
         if (!(d <= far_) || (same_part_ && rests_near(v, f))) continue;
         slack_ = std::min(slack_, d);
@@ -221,11 +224,6 @@ class SelfSearch {
         list_.slack.faces.push_back(d - model_.meets());
       }
     }
-  }
-  /// A point is within `far` of the box about a triangle.
-  bool beside(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) const {
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    return (low.array() - far_ <= x.array()).all() && (x.array() <= high.array() + far_).all();
   }
   bool rests_near(std::uint32_t v, std::uint32_t f) const {
     const auto& [a, b, c] = model_.surface.triangles[f];
@@ -250,30 +248,22 @@ class SelfSearch {
         if (same && f <= e) continue;
         const auto& [a, b] = mesh_.edges[e].end;
         const auto& [c, d] = mesh_.edges[f].end;
-        if (a == c || a == d || b == c || b == d || !beside(mesh_.edges[e], mesh_.edges[f])) continue;
-        const double far = apart(at_, a, b, c, d);
-        if (!(far <= far_) || (same_part_ && edges_rest_near(e, f))) continue;
-        slack_ = std::min(slack_, far);
+        if (a == c || a == d || b == c || b == d || !beside(at_[a], at_[b], at_[c], at_[d], far_)) continue;
+        const double d_ef = distance(at_, e, f);
+        if (!(d_ef <= far_) || (same_part_ && edges_rest_near(e, f))) continue;
+        slack_ = std::min(slack_, d_ef);
         list_.edges.push_back({e, f});
-        list_.slack.edges.push_back(far - model_.meets());
+        list_.slack.edges.push_back(d_ef - model_.meets());
       }
   }
-  /// The boxes of two edges are within `far`.
-  bool beside(const SelfEdge& e, const SelfEdge& f) const {
-    const Vec3 &a = at_[e.end[0]], &b = at_[e.end[1]], &c = at_[f.end[0]], &d = at_[f.end[1]];
-    return (a.cwiseMin(b).array() - far_ <= c.cwiseMax(d).array()).all() &&
-           (c.cwiseMin(d).array() <= a.cwiseMax(b).array() + far_).all();
-  }
   bool edges_rest_near(std::uint32_t e, std::uint32_t f) const {
-    const auto& [a, b] = mesh_.edges[e].end;
-    const auto& [c, d] = mesh_.edges[f].end;
-    return apart(model_.surface.rest, a, b, c, d) <
+    return distance(model_.surface.rest, e, f) <
            model_.left_out(mesh_.edges[e].longest, mesh_.edges[f].longest);
   }
-  static double apart(std::span<const Vec3> at, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                      std::uint32_t d) {
-    const SegmentFeet feet = feet_of(at[a], at[b], at[c], at[d]);
-    return (at[a] + feet.s * (at[b] - at[a]) - at[c] - feet.t * (at[d] - at[c])).norm();
+  double distance(std::span<const Vec3> at, std::uint32_t e, std::uint32_t f) const {
+    const auto& [a, b] = mesh_.edges[e].end;
+    const auto& [c, d] = mesh_.edges[f].end;
+    return apart(feet_of(at[a], at[b], at[c], at[d]), at[a], at[b], at[c], at[d]).norm();
   }
 
   const SelfModel& model_;

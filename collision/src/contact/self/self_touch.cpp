@@ -19,6 +19,8 @@ struct Place {
   double distance;
 };
 
+/// Pairs are looked at first and answered afterwards: the faces in the range of a vertex come from several
+/// groups, and what of them counts is known once all are there; sorted, so that sums do not depend on groups.
 class SelfTouches {
  public:
   SelfTouches(const SelfModel& model, PosedSelf& surface, const SelfLedger* kept)
@@ -67,6 +69,7 @@ class SelfTouches {
   double moved_of(std::uint32_t g) {
     const SelfList& list = surface_.list();
     const double bound = surface_.moved(list.groups[g]);
+    // Where a step is so long that bounds would wake much that is far, vertices are worth placing twice.
     if (!kept_ || bound < 4.0 * model_.law.range) return bound;
     double most = 0.0;
     for (std::size_t i = g == 0 ? 0 : list.groups[g - 1].members; i < list.groups[g].members; ++i) {
@@ -85,8 +88,7 @@ class SelfTouches {
   void look_at_face(const SelfPair& pair) {
     const std::array<Vec3, 3> t = corners(pair.second);
     const Vec3& x = at(pair.first);
-    const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
-    if (!((low.array() - far_ <= x.array()).all() && (x.array() <= high.array() + far_).all())) return;
+    if (!beside(x, t, far_)) return;
     ++out_.looked_at;
     const Foot foot = foot_on(t, x);
     const Vec3 apart = x - foot.point;
@@ -100,12 +102,10 @@ class SelfTouches {
     const auto& [a, b] = mesh_.edges[pair.first].end;
     const auto& [c, d] = mesh_.edges[pair.second].end;
     const Vec3 &p = at(a), &q = at(b), &r = at(c), &s = at(d);
-    if (!((p.cwiseMin(q).array() - far_ <= r.cwiseMax(s).array()).all() &&
-          (r.cwiseMin(s).array() <= p.cwiseMax(q).array() + far_).all()))
-      return;
+    if (!beside(p, q, r, s, far_)) return;
     ++out_.looked_at;
     const SegmentFeet feet = feet_of(p, q, r, s);
-    const Vec3 apart = p + feet.s * (q - p) - r - feet.t * (s - r);
+    const Vec3 way = apart(feet, p, q, r, s);
     const double both = mesh_.edges[pair.first].area + mesh_.edges[pair.second].area;
     // Of edges shorter than the range more than those that cross are near each other.
     const double area = both * both / (16.0 * (both + model_.law.range * model_.meets()));
@@ -114,8 +114,8 @@ class SelfTouches {
                         2,
                         {mesh_.edges[pair.first].face, mesh_.edges[pair.second].face},
                         kEdges | (std::uint64_t{pair.first} << 32) | pair.second,
-                        apart,
-                        apart.norm(),
+                        way,
+                        way.norm(),
                         area};
     if (close(near) || !(near.distance < model_.meets())) return;
     const Flatness flat = flatness(pair, q - p, s - r);
@@ -164,6 +164,7 @@ class SelfTouches {
     if (!kept_ || gap >= far_ - model_.meets()) return true;
     std::array<Vec3, 4> way;
     Vec3 mean = Vec3::Zero();
+    // What all four have in common brings none nearer to another.
     for (std::size_t i = 0; i < 4; ++i) mean += way[i] = surface_.before(near.vertex[i]) - at(near.vertex[i]);
     double first = 0.0, second = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -185,7 +186,7 @@ class SelfTouches {
     for (std::size_t i = 0; i < 4; ++i) x[i] = at(near.vertex[i]) + s * way[i];
     if (near.of_first == 1) return (x[0] - foot_on({x[1], x[2], x[3]}, x[0]).point).norm();
     const SegmentFeet feet = feet_of(x[0], x[1], x[2], x[3]);
-    return (x[0] + feet.s * (x[1] - x[0]) - x[2] - feet.t * (x[3] - x[2])).norm();
+    return apart(feet, x[0], x[1], x[2], x[3]).norm();
   }
 
   /// Of the faces in the range of a vertex, what is counted how often: each its nearest place once, edges k
