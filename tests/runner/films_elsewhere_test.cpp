@@ -89,7 +89,9 @@ double blender_off_by(const Folder& folder, const Json& scene) {
 }
 
 TEST(GltfInBlender, MovesAsOurSkinningWhereInstalled) {
-  if (!does("command -v blender")) GTEST_SKIP() << "needs Debian's blender, which no script here installs";
+  if (!does("command -v blender"))
+    GTEST_SKIP()
+        << "needs Debian's blender, which no script here installs: hundreds of megabytes for one test";
   const double size = std::sqrt(1.0 + 0.04 + 0.04);  // of the tube
   const std::pair<const char*, Json> scenes[] = {{"bending", bending()}, {"forked", forked()}};
   for (const auto& [name, scene] : scenes) {
