@@ -153,8 +153,7 @@ void PosedSelf::choose_list() {
   sound_ = all_finite(at);
   if (!sound_) return;
   const bool wide = model_.barrier() && kept_;
-  list_ = model_.search({pairs_, {}, {}}, at,
-                        wide ? motions_ : std::vector<double>(model_.mesh.spans.size(), 0.0));
+  list_ = model_.search({}, at, wide ? motions_ : std::vector<double>(model_.mesh.spans.size(), 0.0));
   fresh_ = true;
 }
 

@@ -35,7 +35,7 @@ struct SelfPose {
 
 /// Pairs that may come near each other while what each span holds moves by no more than its margin.
 struct SelfList {
-  SelfPose pose;               ///< when searched
+  SelfPose pose;               ///< when searched; empty in a list for one state alone
   std::vector<double> margin;  ///< per span
   std::vector<SelfGroup> groups;
   std::vector<SelfPair> faces, edges;  ///< of vertices of the mesh and its faces; of its edges
