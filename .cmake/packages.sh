@@ -8,9 +8,12 @@ scene_packages=(nlohmann-json3-dev libvalijson-dev)
 # What the collision accuracy suite compares with, where it is found.
 accuracy_packages=(pkg-config libfcl-dev libccd-dev libgts-dev libbullet-dev libode-dev)
 runner_packages=("${scene_packages[@]}" libcli11-dev libembree-dev libpng-dev zlib1g-dev)
-# What the tests of players ask: a browser, and npm, which has other packages where it is not Debian's.
+# What fetches the player's three.js and esbuild, and what tests ask beside; where npm is not Debian's, its Debian packages
+# are not asked for.
+npm_packages=()
+command -v npm >/dev/null || npm_packages+=(nodejs npm)
+# What the long tests of players ask.
 player_packages=(chromium)
-command -v npm >/dev/null || player_packages+=(nodejs npm)
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . .cmake/packages.sh
-need_packages "${core_packages[@]}" "${bind_packages[@]}" "${runner_packages[@]}"
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${runner_packages[@]}" "${npm_packages[@]}"
 bash .cmake/cgal-meshes.sh build/cgal-meshes
 # A build folder keeps the choice whether tests are built; a new one needs none for this.
 if [ -f build/CMakeCache.txt ]; then cmake --preset release -Wno-dev; else cmake --preset release -Wno-dev -DTENDRIL_TESTS=OFF; fi

@@ -22,7 +22,7 @@ for argument in "$@"; do
 done
 
 . .cmake/packages.sh
-need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}"
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}" "${npm_packages[@]}"
 if [[ $labels == *long* ]]; then need_packages "${player_packages[@]}"; fi
 bash .cmake/cgal-meshes.sh build/cgal-meshes
 bash .cmake/npm.sh tests/runner/films build/npm

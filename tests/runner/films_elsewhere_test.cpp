@@ -20,9 +20,7 @@ Json with_degree(Json scene, int degree) {
 }
 
 TEST(PlayerInChromium, VerticesInThePageAreTheLibrarysAndItPlays) {
-  if (!can_play())
-    GTEST_SKIP() << "needs node, Debian's chromium, and playwright-core of npm in " TENDRIL_NPM
-                    ", which tests/run.sh --long installs";
+  if (!can_play()) GTEST_SKIP() << kToPlay;
   const Folder folder;
   std::vector<std::string> names;
   for (int degree = 1; degree <= 5; ++degree) {
@@ -55,6 +53,8 @@ TEST(PlayerInChromium, VerticesInThePageAreTheLibrarysAndItPlays) {
   EXPECT_LT(last["turned"][0], -0.1);
   EXPECT_GT(last["turned"][1], 0.05);
   EXPECT_NEAR(last["nearer"], 0.5, 0.01);
+  EXPECT_LT(last["keyed"][0], -0.05);
+  EXPECT_NEAR(last["keyed"][1], 1 / 1.1, 0.01);
   EXPECT_EQ(last["clicked"], 6);
   EXPECT_TRUE(last["home"]);
   EXPECT_EQ(last["switches"], Json({"mesh", "curve-pairs", "frames", "tubes", "ambiguous"}));
@@ -115,7 +115,8 @@ struct Dinosaur {
     std::filesystem::copy(TENDRIL_CGAL_MESHES "/diplodocus.off", folder.path());
     const Outcome rig = folder.run("rig diplodocus.off --size 1.5 --wind 12 --out scene.json");
     EXPECT_EQ(rig.code, 0) << rig.err;
-    const Outcome run = folder.run("run scene.json --out scene --double --no-pictures --gltf --player");
+    const std::string player = TENDRIL_HAS_PLAYER != 0 ? " --player" : "";
+    const Outcome run = folder.run("run scene.json --out scene --double --no-pictures --gltf" + player);
     EXPECT_EQ(run.code, 0) << run.err;
     std::cout << run.out;
     summary = Json::parse(bytes_of(folder / "scene/summary.json"));
@@ -170,9 +171,7 @@ TEST(DinosaurFilms, SkinKeepsItsToleranceWithFewJoints) {
 
 TEST(DinosaurFilms, PageIsSmallAndItsVerticesTheLibrarys) {
   if (!has_dinosaur()) GTEST_SKIP() << kNeeds;
-  if (!can_play())
-    GTEST_SKIP() << "needs node, Debian's chromium, and playwright-core of npm in " TENDRIL_NPM
-                    ", which tests/run.sh --long installs";
+  if (!can_play()) GTEST_SKIP() << kToPlay;
   const Dinosaur run;
   const auto bytes = std::filesystem::file_size(run.folder / "scene/scene.html");
   EXPECT_LE(bytes, 1500000u);

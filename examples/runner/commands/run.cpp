@@ -104,6 +104,7 @@ void tell(const Options& options, const std::string& summary, const scene::Scene
 }
 
 int run(const Options& options) {
+  check(options.extras);
   const Interrupt interrupt;
   const int threads = thread_count(options.threads);
   Phases phases;

@@ -18,13 +18,17 @@ std::string counted(std::size_t count, const char* things, const char* thing) {
 
 }  // namespace
 
+void check(const ExtraFlags& flags) {
+  if (flags.player) require_player();
+  if (!flags.film.empty() && !flags.film.ends_with(".apng") && !flags.film.ends_with(".png"))
+    throw InvalidInput("--film", "'" + flags.film + "'", "a name that ends in .apng or .png");
+}
+
 Extras::Extras(const ExtraFlags& flags, const scene::SceneRun& run, bind::PolygonMesh look, std::string name,
                Recorder& recorder, const std::string& folder)
     : flags_(flags), run_(run), look_(std::move(look)), name_(std::move(name)), recorder_(recorder) {
   if (flags.any_gltf() && run.mesh() == nullptr)
     throw InvalidInput(run.file().path, "no mesh for --gltf", "a scene with a mesh");
-  if (!flags.film.empty() && !flags.film.ends_with(".apng") && !flags.film.ends_with(".png"))
-    throw InvalidInput("--film", "'" + flags.film + "'", "a name that ends in .apng or .png");
   if (flags.vtk) series_.emplace(run, folder);
   if (flags.any_gltf() || flags.player || !flags.film.empty()) film_.emplace(run);
 }

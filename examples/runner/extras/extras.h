@@ -18,6 +18,10 @@ struct ExtraFlags {
   bool any_gltf() const { return gltf || gltf_morph; }
 };
 
+/// Throws InvalidInput for what no run can be asked for: a film of another type, or a player where the
+/// program was built without.
+void check(const ExtraFlags& flags);
+
 /// Writes that, from what it sees of the run.
 class Extras {
  public:

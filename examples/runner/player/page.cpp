@@ -317,6 +317,8 @@ std::string in_page(std::string text) {
 
 }  // namespace
 
+void require_player() {}
+
 std::string player_page(const Film& film, const Camera& camera, const std::string& name,
                         const std::string& about) {
   Writer writer(film, camera);
@@ -324,11 +326,8 @@ std::string player_page(const Film& film, const Camera& camera, const std::strin
   writer.json()["name"] = name;
   writer.json()["about"] = about;
   const std::string json = writer.json().dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string out = kPageHtml;
-  const std::pair<std::string, std::string> parts[] = {{"@STYLE@", kPageStyle},
-                                                       {"@FILM@", in_page(json)},
-                                                       {"@DATA@", writer.data()},
-                                                       {"@SCRIPT@", kPageScript}};
+  std::string out = page_template();
+  const std::pair<std::string, std::string> parts[] = {{"@FILM@", in_page(json)}, {"@DATA@", writer.data()}};
   for (const auto& [mark, text] : parts) out.replace(out.find(mark), mark.size(), text);
   return out;
 }

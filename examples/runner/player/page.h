@@ -17,9 +17,12 @@ namespace tendril::runner {
 std::string player_page(const Film& film, const Camera& camera, const std::string& name,
                         const std::string& about);
 
-/// The page's parts, which are files of the folder `page`.
-extern const char* const kPageHtml;
-extern const char* const kPageStyle;
-extern const char* const kPageScript;
+/// Throws InvalidInput, which says what to install, where the program was built without a player; then
+/// player_page does, too.
+void require_player();
+
+/// The page but for what is of a run: @FILM@ and @DATA@ stand for that. Made of the folder `page` and of
+/// three.js when the program is built.
+std::string page_template();
 
 }  // namespace tendril::runner

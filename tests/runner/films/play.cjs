@@ -1,11 +1,74 @@
 // Plays pages in Chromium, without a display or a graphics card, and prints as JSON what it saw of each:
 //   node play.cjs NODE_MODULES CHROMIUM OUT PAGE...
-// Writes the vertices of moments into OUT/NAME_MOMENT.f32 (x, y, z and the number of shares, over the mesh's size about
+// Writes the vertices that the graphics card makes at moments into OUT/NAME_MOMENT.f32 (x, y, z and the number of shares, over the mesh's size about
 // its middle); plays the last page, and writes pictures of it, light and dark.
 const fs = require('fs');
 const path = require('path');
 const [, , modules, executablePath, out, ...pages] = process.argv;
 const {chromium} = require(`${modules}/playwright-core`);
+
+// In the page: where the shader that draws has the mesh's vertices at a moment. While three.js draws, the same source is
+// linked anew for transform feedback, and gets the same attributes, uniforms and textures. Where a vertex is drawn must be
+// what the camera makes of where it is.
+async function measure(moment) {
+  const {stage: {mesh, renderer}, view: {camera}, film, show} = await window.tendril, gl = renderer.getContext();
+  const points = new Float32Array(4 * film.arrays.points.length / 3).fill(NaN), size = 32 * mesh.of.length;
+  let astray = 0;
+  const set = {
+    [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv, [gl.FLOAT_VEC4]: gl.uniform4fv,
+    [gl.INT]: gl.uniform1i, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D]: gl.uniform1i,
+    [gl.FLOAT_MAT3]: (at, value) => gl.uniformMatrix3fv(at, false, value), [gl.FLOAT_MAT4]: (at, value) => gl.uniformMatrix4fv(at, false, value),
+  };
+  const link = drawn => {
+    const made = gl.createProgram();
+    const vertex = gl.getAttachedShaders(drawn).find(shader => gl.getShaderParameter(shader, gl.SHADER_TYPE) === gl.VERTEX_SHADER);
+    for (const [type, text] of [[gl.VERTEX_SHADER, gl.getShaderSource(vertex)], [gl.FRAGMENT_SHADER, '#version 300 es\nvoid main() {}']]) {
+      const shader = gl.createShader(type);
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(made, shader);
+    }
+    for (let k = 0; k < gl.getProgramParameter(drawn, gl.ACTIVE_ATTRIBUTES); ++k) {
+      const {name} = gl.getActiveAttrib(drawn, k), at = gl.getAttribLocation(drawn, name);
+      if (at >= 0) gl.bindAttribLocation(made, at, name);
+    }
+    gl.transformFeedbackVaryings(made, ['bound', 'gl_Position'], gl.INTERLEAVED_ATTRIBS);
+    gl.linkProgram(made);
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
+    return made;
+  };
+  mesh.onAfterRender = () => {
+    const drawn = gl.getParameter(gl.CURRENT_PROGRAM), made = link(drawn);
+    gl.useProgram(made);
+    for (let k = 0; k < gl.getProgramParameter(made, gl.ACTIVE_UNIFORMS); ++k) {
+      const {name, type} = gl.getActiveUniform(made, k);
+      set[type].call(gl, gl.getUniformLocation(made, name), gl.getUniform(drawn, gl.getUniformLocation(drawn, name)));
+    }
+    const buffer = gl.createBuffer(), values = new Float32Array(size / 4);
+    gl.bindBuffer(gl.TRANSFORM_FEEDBACK_BUFFER, buffer);
+    gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, size, gl.DYNAMIC_READ);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+    gl.enable(gl.RASTERIZER_DISCARD);
+    gl.beginTransformFeedback(gl.POINTS);
+    gl.drawArrays(gl.POINTS, 0, mesh.of.length);
+    gl.endTransformFeedback();
+    gl.disable(gl.RASTERIZER_DISCARD);
+    gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, values);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
+    const {elements: m} = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse);
+    mesh.of.forEach((point, k) => {
+      const [x, y, z, shares, ...drawnAt] = values.subarray(8 * k, 8 * k + 8);
+      points.set([x, y, z, shares], 4 * point);
+      drawnAt.forEach((at, r) => { astray = Math.max(astray, Math.abs(at - (m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r]))); });
+    });
+    gl.deleteBuffer(buffer);
+    gl.deleteProgram(made);
+    gl.useProgram(drawn);
+  };
+  show(moment);
+  delete mesh.onAfterRender;
+  return {points: Array.from(points), astray};
+}
 
 async function see(browser, file) {
   const name = path.basename(file, '.html'), faults = [];
@@ -17,7 +80,8 @@ async function see(browser, file) {
   const last = await page.evaluate(async () => (await window.tendril).last);
   const moments = [...new Set([0, Math.floor(last / 2), last])], times = [];
   for (const moment of moments) {
-    const points = await page.evaluate(async k => { const film = await window.tendril; film.show(k); return film.points(); }, moment);
+    const {points, astray} = await page.evaluate(measure, moment);
+    if (!(astray < 1e-4)) faults.push(`drawn ${astray} of the picture from where it is`);
     fs.writeFileSync(`${out}/${name}_${moment}.f32`, Buffer.from(Float32Array.from(points).buffer));
     times.push(Number(await page.textContent('#time')));
   }
@@ -40,9 +104,13 @@ async function play(page) {
   return {stepped, playing, paused, ended: await film('moment')};
 }
 
-// By mouse and by two fingers: whether the view turned and came nearer, and to which output a click on a plot went.
+// By mouse, two fingers and keys: whether the view turned and came nearer, and to which output a click on a plot went.
 async function touch(page) {
-  const view = () => page.evaluate('window.tendril.then(film => film.view)');
+  const view = () => page.evaluate(async () => {
+    const {yaw, pitch, distance} = (await window.tendril).view;
+    return {yaw, pitch, distance};
+  });
+  const between = (a, b) => Math.atan2(Math.sin(b.yaw - a.yaw), Math.cos(b.yaw - a.yaw));
   const first = await view();
   await page.mouse.move(400, 250);
   await page.mouse.down();
@@ -56,13 +124,16 @@ async function touch(page) {
   for (const apart of [50, 65, 80]) await fingers('touchMove', apart);
   await fingers('touchEnd');
   const near = await view();
+  await page.keyboard.press('Shift+ArrowLeft');
+  await page.keyboard.press('+');
+  const keyed = await view();
   const plot = await page.locator('#energy').boundingBox();
   await page.mouse.click(plot.x + plot.width / 2, plot.y + plot.height / 2);
   const moment = await page.evaluate('window.tendril.then(film => film.moment)');
   await page.mouse.dblclick(400, 250);
   const home = await view();
-  return {turned: [turned.yaw - first.yaw, turned.pitch - first.pitch], nearer: near.distance / first.distance,
-          clicked: moment, home: home.distance === first.distance && home.yaw === first.yaw};
+  return {turned: [between(first, turned), turned.pitch - first.pitch], nearer: near.distance / first.distance,
+          keyed: [between(near, keyed), keyed.distance / near.distance], clicked: moment, home: home.distance === first.distance && home.yaw === first.yaw};
 }
 
 async function picture(page, name, last) {

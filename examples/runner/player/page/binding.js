@@ -1,19 +1,21 @@
 // The mesh on the curve-pairs, evaluated on the graphics card: a point is its place in the nearest share's frame, plus
 // the weighted differences of its other shares' places to that. Lengths are over the mesh's size, about its middle.
 
-const bindingShader = spans => `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
+import {BufferAttribute, Color, DataTexture, FloatType, Matrix4, Mesh, Quaternion, RGBAFormat, SRGBColorSpace, Vector3} from 'three';
+import {mergeVertices} from 'three/addons/utils/BufferGeometryUtils.js';
+import {creased, lit} from './shape.js';
+
+// Stands before the shader that three.js makes of a material.
+const bindingShader = degree => `
 uniform sampler2D spans;   // a row a span: curve (w: turn), derivative, offset, in Bernstein form
 uniform sampler2D shares;  // three texels a share: (s, u, v, w), (weight, span), rest frame
 uniform int sharesWidth;
+uniform float marked;      // how far points of several shares are colored
 in uint first;
 in uint count;
-in vec3 rest;
-out vec4 position;  // w: how many shares
-out vec4 turned;    // quaternion, since rest
-const int P = ${spans.degree};
+out vec4 bound;            // w: how many shares
+vec4 turned;               // quaternion, since rest
+const int P = ${degree};
 
 vec4 share(int index) {
   return texelFetch(shares, ivec2(index % sharesWidth, index / sharesWidth), 0);
@@ -58,130 +60,118 @@ void place(int index, out vec3 point, out vec4 frame, out float weight) {
   frame = times(quaternion(x, y, z), share(3 * index + 2));
   weight = more.x;
 }
-void main() {
-  position = vec4(rest, float(count));
+void bind(vec3 rest) {
+  bound = vec4(rest, float(count));
   turned = vec4(0.0, 0.0, 0.0, 1.0);
-  if (count > 0u) {
-    vec3 base, other;
-    vec4 frame, sum;
-    float weight;
-    place(int(first), base, sum, weight);
-    sum *= weight;
-    vec3 more = vec3(0.0);
-    for (uint k = 1u; k < count; ++k) {
-      place(int(first + k), other, frame, weight);
-      more += weight * (other - base);
-      sum += weight * (dot(sum, frame) < 0.0 ? -frame : frame);
-    }
-    position.xyz = base + more;
-    turned = normalize(sum);
+  if (count == 0u) return;
+  vec3 base, other;
+  vec4 frame, sum;
+  float weight;
+  place(int(first), base, sum, weight);
+  sum *= weight;
+  vec3 more = vec3(0.0);
+  for (uint k = 1u; k < count; ++k) {
+    place(int(first + k), other, frame, weight);
+    more += weight * (other - base);
+    sum += weight * (dot(sum, frame) < 0.0 ? -frame : frame);
   }
-  gl_Position = vec4(0.0);
-  gl_PointSize = 1.0;
-}`;
+  bound.xyz = base + more;
+  turned = normalize(sum);
+}
+`;
 
-class BoundMesh {
-  // of: the point of each vertex that is drawn; the first ones are the points in turn
-  constructor(gl, film, spans, rest, of) {
-    this.gl = gl;
-    this.spans = spans;
-    this.count = rest.length / 3;
-    this.rest = rest;
-    this.readShares(film);
-    this.vertices = of.length;
-    this.program = program(gl, bindingShader(spans), `#version 300 es
-      void main() {}`, ['position', 'turned']);
-    this.vao = gl.createVertexArray();
-    gl.bindVertexArray(this.vao);
-    attribute(gl, this.program, 'first', Uint32Array.from(of, i => this.first[i]), 1, true);
-    attribute(gl, this.program, 'count', Uint32Array.from(of, i => this.counts[i]), 1, true);
-    attribute(gl, this.program, 'rest', Float32Array.from({length: 3 * of.length}, (_, k) => rest[3 * of[Math.floor(k / 3)] + k % 3]), 3);
-    gl.bindVertexArray(null);
-    this.outputs = [0, 1].map(() => {
-      const buffer = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, 16 * of.length, gl.DYNAMIC_COPY);
-      return buffer;
+// What the shader of a material does instead, or besides, at its parts.
+const kBound = [
+  ['#include <uv_vertex>', 'bind(position);'],
+  ['#include <color_vertex>', '#include <color_vertex>\n#ifdef USE_COLOR\nif (bound.w > 1.5) vColor.rgb = mix(vColor.rgb, vec3(0.75, 0.12, 0.05), marked);\n#endif'],
+  ['#include <beginnormal_vertex>', 'vec3 objectNormal = normal + 2.0 * cross(turned.xyz, cross(turned.xyz, normal) + turned.w * normal);'],
+  ['#include <begin_vertex>', 'vec3 transformed = bound.xyz;'],
+];
+
+function texture(values, width) {
+  return Object.assign(new DataTexture(values, width, values.length / (4 * width), RGBAFormat, FloatType), {needsUpdate: true});
+}
+
+export class BoundMesh extends Mesh {
+  constructor(film, spans) {
+    const {triangles, colors, points} = film.arrays, rest = Float64Array.from(points, x => x * film.pointUnit);
+    const flat = creased(points, triangles, film.pointUnit, [['point', Uint32Array.from({length: rest.length / 3}, (_, i) => i)]]);
+    const paint = new Color(), paints = new BufferAttribute(new Float32Array(3 * triangles.length), 3);
+    triangles.forEach((i, k) => {
+      const packed = colors.length === 0 ? 0x92a1b0 : colors[film.colorsOfFaces ? Math.floor(k / 3) : i];
+      paint.setRGB((packed & 255) / 255, (packed >> 8 & 255) / 255, (packed >> 16 & 255) / 255, SRGBColorSpace);
+      paints.setXYZ(k, paint.r, paint.g, paint.b);
     });
-    gl.bindBuffer(gl.ARRAY_BUFFER, null);
-    this.spansTexture = texture(gl, spans.row, spans.list.length);
-    this.feedback = gl.createTransformFeedback();
+    flat.setAttribute('color', paints);
+    super(mergeVertices(flat), lit({vertexColors: true}));
+    this.frustumCulled = false;
+    this.spans = spans;
+    // Of each vertex that is drawn, the mesh's vertex.
+    this.of = this.geometry.attributes.point.array;
+    this.geometry.deleteAttribute('point');
+    const {first, counts, shares} = this.readShares(film, rest);
+    for (const [name, values] of [['first', first], ['count', counts]])
+      this.geometry.setAttribute(name, new BufferAttribute(Uint32Array.from(this.of, i => values[i]), 1));
+    this.posed = texture(new Float32Array(spans.values.length), spans.row);
+    this.marked = {value: 0};
+    this.uniforms = {spans: {value: this.posed}, shares: {value: texture(shares, kSharesWidth)}, sharesWidth: {value: kSharesWidth}, marked: this.marked};
+    this.bind(this.material);
+  }
+
+  // To the curve-pairs goes what is drawn with this material: the mesh, its shadow.
+  bind(material) {
+    material.onBeforeCompile = shader => {
+      Object.assign(shader.uniforms, this.uniforms);
+      for (const [part, ours] of kBound) {
+        if (!shader.vertexShader.includes(part)) throw new Error(`no ${part} in the shader of ${material.type}`);
+        shader.vertexShader = shader.vertexShader.replace(part, ours);
+      }
+      shader.vertexShader = bindingShader(this.spans.degree) + shader.vertexShader;
+    };
   }
 
   // Records from places: the coordinates are those that give the rest position, to double precision.
-  readShares(film) {
+  readShares(film, rest) {
     const {near_pair, near_t, other_count, other_place, other_weight, place_pair, place_t} = film.arrays;
-    const spans = this.spans;
+    const {spans} = this, size = rest.length / 3;
     spans.pose(film.restControl);
-    const at = (pair, t) => {
+    const frame = (pair, t) => {
       const [from, to] = film.pairs[film.bound[pair]].domain;
-      return spans.find(film.bound[pair], from + (to - from) * t / film.parts);
+      const {span, s} = spans.find(film.bound[pair], from + (to - from) * t / film.parts), f = spans.frame(span, s);
+      const back = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(f.lx, f.ly, f.lz)).conjugate();
+      return {...f, span, s, back};
     };
-    const places = Array.from(place_pair, (pair, k) => at(pair, place_t[k]));
-    const still = new Set(film.still);
-    const frames = new Map();
-    const frame = (where, known) => {
-      if (!known) return spans.frame(where.span, where.s);
-      if (!frames.has(where)) frames.set(where, spans.frame(where.span, where.s));
-      return frames.get(where);
-    };
-    this.first = new Uint32Array(this.count);
-    this.counts = new Uint32Array(this.count);
-    let total = 0, other = 0;
-    for (let i = 0; i < this.count; ++i) {
-      this.first[i] = total;
-      this.counts[i] = still.has(i) ? 0 : 1 + other_count[i];
-      total += this.counts[i];
+    const places = Array.from(place_pair, (pair, k) => frame(pair, place_t[k]));
+    const still = new Set(film.still), first = new Uint32Array(size), counts = new Uint32Array(size);
+    let total = 0;
+    for (let i = 0; i < size; ++i) {
+      first[i] = total;
+      counts[i] = still.has(i) ? 0 : 1 + other_count[i];
+      total += counts[i];
     }
-    this.sharesWidth = 3 * 512;
-    const values = new Float32Array(4 * this.sharesWidth * Math.ceil(3 * total / this.sharesWidth));
-    let to = 0;
-    const add = (i, where, weight, known) => {
-      const f = frame(where, known), p = this.rest.subarray(3 * i, 3 * i + 3);
-      const d = [p[0] - f.origin[0], p[1] - f.origin[1], p[2] - f.origin[2]];
-      const q = f.q ??= quaternion(f.lx, f.ly, f.lz);
-      values.set([where.s, dot(d, f.lx), dot(d, f.ly), dot(d, f.lz), weight, where.span, 0, 0, -q[0], -q[1], -q[2], q[3]], to);
+    const shares = new Float32Array(4 * kSharesWidth * Math.max(1, Math.ceil(3 * total / kSharesWidth)));
+    const point = new Vector3(), d = new Vector3();
+    let to = 0, other = 0;
+    const add = ({span, s, origin, lx, ly, lz, back}, weight) => {
+      d.subVectors(point, origin);
+      shares.set([s, d.dot(lx), d.dot(ly), d.dot(lz), weight, span, 0, 0, ...back], to);
       to += 12;
     };
-    for (let i = 0; i < this.count; ++i) {
-      const others = other_count[i];
-      if (this.counts[i] > 0) {
-        let weight = 1;
-        for (let k = 0; k < others; ++k) weight -= other_weight[other + k] / film.parts;
-        add(i, at(near_pair[i], near_t[i]), weight, false);
-        for (let k = 0; k < others; ++k) add(i, places[other_place[other + k]], other_weight[other + k] / film.parts, true);
-      }
-      other += others;
+    for (let i = 0; i < size; other += other_count[i++]) {
+      if (counts[i] === 0) continue;
+      point.fromArray(rest, 3 * i);
+      const weights = Array.from(other_weight.subarray(other, other + other_count[i]), w => w / film.parts);
+      add(frame(near_pair[i], near_t[i]), weights.reduce((left, w) => left - w, 1));
+      weights.forEach((w, k) => add(places[other_place[other + k]], w));
     }
-    this.sharesTexture = texture(this.gl, this.sharesWidth, values.length / (4 * this.sharesWidth), values);
+    return {first, counts, shares};
   }
 
   // To the curve-pairs as they are posed.
   update() {
-    const gl = this.gl;
-    upload(gl, this.spansTexture, this.spans.row, this.spans.list.length, Float32Array.from(this.spans.values));
-    gl.useProgram(this.program);
-    bind(gl, this.program, {spans: this.spansTexture, shares: this.sharesTexture});
-    gl.uniform1i(gl.getUniformLocation(this.program, 'sharesWidth'), this.sharesWidth);
-    gl.bindVertexArray(this.vao);
-    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, this.feedback);
-    this.outputs.forEach((buffer, k) => gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, k, buffer));
-    gl.enable(gl.RASTERIZER_DISCARD);
-    gl.beginTransformFeedback(gl.POINTS);
-    gl.drawArrays(gl.POINTS, 0, this.vertices);
-    gl.endTransformFeedback();
-    gl.disable(gl.RASTERIZER_DISCARD);
-    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, null);
-    [0, 1].forEach(k => gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, k, null));
-    gl.bindVertexArray(null);
-  }
-
-  // What the vertex shader made of every point: x, y, z and the number of shares.
-  read() {
-    const gl = this.gl, out = new Float32Array(4 * this.count);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.outputs[0]);
-    gl.getBufferSubData(gl.ARRAY_BUFFER, 0, out);
-    gl.bindBuffer(gl.ARRAY_BUFFER, null);
-    return out;
+    this.posed.image.data.set(this.spans.values);
+    this.posed.needsUpdate = true;
   }
 }
+
+const kSharesWidth = 3 * 512;

@@ -1,5 +1,7 @@
 // B-spline curve-pairs in double precision, as pieces in Bernstein form on [0, 1], all of one degree.
 
+import {Vector3, Vector4} from 'three';
+
 // Bezier points of the span [knots[i], knots[i + 1]] as combinations of the control points i - degree .. i.
 function bezierOf(knots, degree, i) {
   const blossom = arguments_ => {
@@ -31,7 +33,7 @@ function elevate(rows) {
 }
 
 // The spans of all curve-pairs: which control points they are combinations of, and how.
-class Spans {
+export class Spans {
   constructor(pairs) {
     this.degree = Math.max(...pairs.map(pair => pair.degree));
     this.list = [];
@@ -84,53 +86,34 @@ class Spans {
     });
   }
 
-  bernstein(at, degree, s, components) {
-    const out = [0, 0, 0, 0];
-    for (let x = 0; x < components; ++x) {
-      const b = [];
-      for (let j = 0; j <= degree; ++j) b.push(this.values[at + 4 * j + x]);
-      for (let r = degree; r > 0; --r) for (let j = 0; j < r; ++j) b[j] += s * (b[j + 1] - b[j]);
-      out[x] = b[0];
-    }
-    return out;
+  // at: of the first of the piece's points, among the values
+  bernstein(at, degree, s) {
+    const b = [];
+    for (let j = 0; j <= degree; ++j) b.push(new Vector4().fromArray(this.values, at + 4 * j));
+    for (let r = degree; r > 0; --r) for (let j = 0; j < r; ++j) b[j].lerp(b[j + 1], s);
+    return b[0];
   }
 
   // Point and frame, as the library has them.
   frame(span, s) {
     const P = this.degree, at = 4 * this.row * span;
-    const [x, y, z, turn] = this.bernstein(at, P, s, 4);
-    const n = this.bernstein(at + 4 * (2 * P + 1), P, s, 3);
-    const lz = unit(this.bernstein(at + 4 * (P + 1), P - 1, s, 3));
-    let lx = unit(cross(n, lz)), ly = cross(lz, lx);
-    const c = Math.cos(turn), d = Math.sin(turn);
-    [lx, ly] = [lx.map((value, k) => c * value + d * ly[k]), ly.map((value, k) => c * value - d * lx[k])];
-    return {origin: [x, y, z], lx, ly, lz, offset: n};
+    const curve = this.bernstein(at, P, s), offset = new Vector3().copy(this.bernstein(at + 4 * (2 * P + 1), P, s));
+    const lz = new Vector3().copy(this.bernstein(at + 4 * (P + 1), P - 1, s)).normalize();
+    const x = offset.clone().cross(lz).normalize(), y = lz.clone().cross(x);
+    const c = Math.cos(curve.w), d = Math.sin(curve.w);
+    const lx = x.clone().multiplyScalar(c).addScaledVector(y, d), ly = y.multiplyScalar(c).addScaledVector(x, -d);
+    const {from, to} = this.list[span];
+    return {origin: new Vector3().copy(curve), lx, ly, lz, offset, t: from + (to - from) * s};
   }
+
+  // Frames along a curve-pair, twelve to a span.
+  along(pair) {
+    const {first, count} = this.of[pair], out = [];
+    for (let k = first; k < first + count; ++k)
+      for (let j = k > first ? 1 : 0; j <= kParts; ++j) out.push(this.frame(k, j / kParts));
+    return out;
+  }
+  samples(pair) { return kParts * this.of[pair].count + 1; }
 }
 
-function cross(a, b) {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-function dot(a, b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-function unit(a) {
-  const length = Math.hypot(a[0], a[1], a[2]) || 1;
-  return [a[0] / length, a[1] / length, a[2] / length];
-}
-
-// Quaternion (x, y, z, w) of the rotation whose matrix has these columns.
-function quaternion(x, y, z) {
-  const m = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
-  const trace = m[0][0] + m[1][1] + m[2][2];
-  if (trace > 0) {
-    const s = 2 * Math.sqrt(1 + trace);
-    return [(m[2][1] - m[1][2]) / s, (m[0][2] - m[2][0]) / s, (m[1][0] - m[0][1]) / s, s / 4];
-  }
-  const i = m[0][0] > m[1][1] && m[0][0] > m[2][2] ? 0 : m[1][1] > m[2][2] ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
-  const s = 2 * Math.sqrt(1 + m[i][i] - m[j][j] - m[k][k]), q = [0, 0, 0, (m[k][j] - m[j][k]) / s];
-  q[i] = s / 4;
-  q[j] = (m[j][i] + m[i][j]) / s;
-  q[k] = (m[k][i] + m[i][k]) / s;
-  return q;
-}
+const kParts = 12;

@@ -1,12 +1,6 @@
 // What the program wrote into the page. Arrays are 32-bit integers: differences to the element `stride` before, taken
 // `order` times, zigzag-coded, the lowest bytes of all first, deflated.
 
-async function inflate(base64) {
-  const packed = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
 function unpack(bytes, {at, count, stride, order}) {
   const out = new Int32Array(count);
   for (let i = 0; i < count; ++i) {
@@ -17,9 +11,10 @@ function unpack(bytes, {at, count, stride, order}) {
   return out;
 }
 
-async function readFilm() {
+// inflate: what is deflated in the element of an id, as a response (page.html)
+export async function readFilm(inflate) {
   const film = JSON.parse(document.getElementById('film').textContent);
-  const bytes = await inflate(document.getElementById('data').textContent.trim());
+  const bytes = new Uint8Array(await inflate('data').arrayBuffer());
   film.arrays = {};
   for (const [name, where] of Object.entries(film.sections)) film.arrays[name] = unpack(bytes, where);
   return film;

@@ -1,28 +1,30 @@
 // The page: time line, switches, keyboard.
 
-async function main() {
-  const film = await readFilm();
+import {readFilm} from './data.js';
+import {EnergyPlot, kSeries, short, StepPlot} from './plots.js';
+import {Stage} from './scene.js';
+import {View} from './view.js';
+
+export async function main(inflate) {
+  const film = await readFilm(inflate);
   const $ = id => document.getElementById(id);
-  const gl = $('view').getContext('webgl2', {antialias: true, stencil: true, alpha: true, preserveDrawingBuffer: true});
-  if (!gl) throw new Error('This page needs WebGL 2, which the browser does not offer.');
-  const scene = new Scene(gl, film), last = film.times.length - 1;
+  const stage = new Stage($('view'), film), last = film.times.length - 1;
   const plots = [new EnergyPlot($('energy'), film), new StepPlot($('steps'), film)];
   const switches = [
-    {key: 'mesh', name: 'mesh', on: true, there: scene.mesh},
-    {key: 'pairs', name: 'curve-pairs', on: !scene.mesh, there: true},
+    {key: 'mesh', name: 'mesh', on: true, there: stage.mesh},
+    {key: 'pairs', name: 'curve-pairs', on: !stage.mesh, there: true},
     {key: 'frames', name: 'frames', on: false, there: true},
-    {key: 'tubes', name: 'tubes', on: !scene.mesh, there: true},
+    {key: 'tubes', name: 'tubes', on: !stage.mesh, there: true},
     {key: 'contacts', name: 'contacts', on: true, there: film.arrays.contact_count.some(n => n > 0)},
-    {key: 'ambiguous', name: 'ambiguous', on: false, there: scene.mesh && film.arrays.other_count.some(n => n > 0)},
+    {key: 'ambiguous', name: 'ambiguous', on: false, there: stage.mesh && film.arrays.other_count.some(n => n > 0)},
   ].filter(({there}) => there);
   const shown = Object.fromEntries(switches.map(({key, on}) => [key, on]));
   let moment = 0, playing = false, wanted = false, posed = -1;
 
   const render = () => {
     wanted = false;
-    fit();
-    if (posed !== moment) scene.pose(posed = moment);
-    scene.draw(shown, orbit, ($('panel').offsetHeight + 14) / window.innerHeight, matchMedia('(prefers-color-scheme: dark)').matches ? 0.45 : 0.16);
+    if (posed !== moment) stage.pose(posed = moment);
+    stage.draw(shown, view, room(), matchMedia('(prefers-color-scheme: dark)').matches ? 0.45 : 0.16);
     const k = Math.min(last, Math.floor(moment)), next = Math.min(last, k + 1);
     const time = film.times[k] + (moment - k) * (film.times[next] - film.times[k]);
     $('time').textContent = time.toFixed(film.digits);
@@ -31,16 +33,16 @@ async function main() {
     const near = Math.round(moment);
     for (const {key} of kSeries) $(`value-${key}`).textContent = short(film.energies[key][near]);
   };
+  // On a narrow screen the switches are a row above the picture, else they stand beside it.
+  const room = () => {
+    const row = $('switches').offsetWidth > 0.5 * window.innerWidth;
+    return {above: row ? $('top').offsetHeight / window.innerHeight : 0, below: ($('panel').offsetHeight + 14) / window.innerHeight};
+  };
   const ask = () => {
     if (!wanted) requestAnimationFrame(render);
     wanted = true;
   };
-  const fit = () => {
-    const ratio = Math.min(2, window.devicePixelRatio || 1), canvas = gl.canvas;
-    const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
-    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-  };
-  const orbit = new Orbit($('view'), film.view, ask);
+  const view = new View($('view'), film.view, ask);
   const show = to => {
     moment = Math.min(last, Math.max(0, to));
     ask();
@@ -99,26 +101,24 @@ async function main() {
     ArrowLeft: () => { play(false); show(Math.ceil(moment) - 1); },
     Home: () => { play(false); show(0); },
     End: () => { play(false); show(last); },
-    r: () => orbit.reset(),
+    r: () => view.reset(),
+    '+': () => view.nearer(kNearer),
+    '-': () => view.nearer(1 / kNearer),
   };
+  const turns = {ArrowLeft: [kTurn, 0], ArrowRight: [-kTurn, 0], ArrowUp: [0, kTurn], ArrowDown: [0, -kTurn]};
   window.addEventListener('keydown', event => {
-    if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
+    const turn = event.shiftKey && turns[event.key], key = turn ? () => view.turn(...turn) : keys[event.key];
+    if (!key || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    keys[event.key]();
+    key();
   });
   window.addEventListener('resize', ask);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', ask);
   render();
   return {
-    film, last, play, show: to => { play(false); moment = to; render(); },
+    film, last, stage, play, view, show: to => { play(false); moment = to; render(); },
     get moment() { return moment; }, get playing() { return playing; },
-    get view() { return {yaw: orbit.yaw, pitch: orbit.pitch, distance: orbit.distance}; },
-    points: () => scene.mesh ? Array.from(scene.mesh.read()) : [],
   };
 }
 
-window.tendril = main();
-window.tendril.catch(error => {
-  document.getElementById('fault').textContent = error.message;
-  document.getElementById('fault').hidden = false;
-});
+const kTurn = 0.1, kNearer = 1.1;

@@ -1,6 +1,6 @@
 // Curves over the run's time, and the place in it.
 
-const kSeries = [
+export const kSeries = [
   {key: 'kinetic', name: 'kinetic', color: '--blue'},
   {key: 'elastic', name: 'elastic', color: '--red'},
   {key: 'potential', name: 'potential', color: '--green'},
@@ -47,7 +47,7 @@ class Plot {
   }
 }
 
-class EnergyPlot extends Plot {
+export class EnergyPlot extends Plot {
   draw(time) {
     const context = this.begin(), {times, energies} = this.film;
     const change = kSeries.map(({key}) => energies[key].map(e => e - energies[key][0]));
@@ -60,7 +60,7 @@ class EnergyPlot extends Plot {
   }
 }
 
-class StepPlot extends Plot {
+export class StepPlot extends Plot {
   draw(time) {
     const context = this.begin(), {at, step} = this.film.steps;
     if (step.length > 0) {
@@ -83,7 +83,7 @@ function range(values) {
 function style(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
-function short(x) {
+export function short(x) {
   if (x === 0) return '0';
   const size = Math.abs(x);
   return size >= 1e5 || size < 1e-3 ? x.toExponential(2).replace('e+', 'e') : String(Number(x.toPrecision(3)));

@@ -1,95 +1,43 @@
-// The eye goes round a point, by mouse, touch or wheel.
-
-class Orbit {
-  constructor(canvas, view, changed) {
-    this.up = view.up;
-    const least = [0, 1, 2].reduce((a, b) => Math.abs(view.up[b]) < Math.abs(view.up[a]) ? b : a);
-    const axis = [0, 0, 0];
-    axis[least] = 1;
-    this.side = unit(cross(axis, view.up));
-    this.front = cross(view.up, this.side);
-    this.home = view;
-    this.changed = changed;
-    this.reset();
-    this.listen(canvas);
-  }
-
-  reset() {
-    const {eye, target} = this.home, d = eye.map((x, k) => x - target[k]);
-    this.target = [...target];
-    this.distance = Math.hypot(...d);
-    this.pitch = Math.asin(dot(d, this.up) / this.distance);
-    this.yaw = Math.atan2(dot(d, this.side), dot(d, this.front));
-    this.changed();
-  }
-
-  listen(canvas) {
-    const fingers = new Map();
-    const spread = () => {
-      const [a, b] = [...fingers.values()];
-      return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y)};
-    };
-    canvas.addEventListener('pointerdown', event => {
-      canvas.setPointerCapture(event.pointerId);
-      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-    });
-    canvas.addEventListener('pointermove', event => {
-      const last = fingers.get(event.pointerId);
-      if (!last) return;
-      const now = {x: event.clientX, y: event.clientY};
-      if (fingers.size === 1) {
-        if (event.shiftKey || event.buttons & 6) this.pan(now.x - last.x, now.y - last.y, canvas.clientHeight);
-        else this.turn(now.x - last.x, now.y - last.y);
-        fingers.set(event.pointerId, now);
-      } else {
-        const before = spread();
-        fingers.set(event.pointerId, now);
-        const after = spread();
-        this.zoom(before.apart / Math.max(after.apart, 1));
-        this.pan(after.x - before.x, after.y - before.y, canvas.clientHeight);
-      }
-    });
-    for (const name of ['pointerup', 'pointercancel']) canvas.addEventListener(name, event => fingers.delete(event.pointerId));
-    canvas.addEventListener('wheel', event => {
-      event.preventDefault();
-      this.zoom(Math.exp(0.001 * event.deltaY));
-    }, {passive: false});
-    canvas.addEventListener('dblclick', () => this.reset());
-    canvas.addEventListener('contextmenu', event => event.preventDefault());
-  }
-
-  turn(x, y) {
-    this.yaw -= 0.006 * x;
-    this.pitch = Math.min(1.5, Math.max(-1.5, this.pitch + 0.006 * y));
-    this.changed();
-  }
-  zoom(factor) {
-    this.distance = Math.min(20, Math.max(0.05, this.distance * factor));
-    this.changed();
-  }
-  pan(x, y, height) {
-    const {right, up} = this.axes(), step = 2 * this.distance * Math.tan(kAngle / 2) / height;
-    this.target = this.target.map((t, k) => t - step * x * right[k] + step * y * up[k]);
-    this.changed();
-  }
-
-  axes() {
-    const c = Math.cos(this.pitch);
-    const back = [0, 1, 2].map(k => c * Math.sin(this.yaw) * this.side[k] + c * Math.cos(this.yaw) * this.front[k] + Math.sin(this.pitch) * this.up[k]);
-    const right = unit(cross(this.up, back));
-    return {back, right, up: cross(back, right)};
-  }
-
-  // lift: the part of the picture's height that lies under the time line
-  camera(width, height, lift) {
-    const {back, right, up} = this.axes();
-    const eye = this.target.map((t, k) => t + this.distance * back[k]);
-    const look = [0, 1, 2].flatMap(k => [right[k], up[k], back[k], 0]).concat([-dot(right, eye), -dot(up, eye), -dot(back, eye), 1]);
-    const near = 0.02 * this.distance, far = this.distance + 20, f = 1 / Math.tan(kAngle / 2);
-    const narrow = Math.min(1 - lift, width / height);
-    const project = [f * narrow * height / width, 0, 0, 0, 0, f * narrow, 0, 0, 0, -lift, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0];
-    return {eye, camera: multiply(project, look)};
-  }
-}
+import {MathUtils, MOUSE, PerspectiveCamera} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 const kAngle = 0.43;  // of view [rad]
+
+// The eye goes round a point, by mouse, fingers, wheel or keys.
+export class View {
+  constructor(canvas, {eye, target, up}, changed) {
+    this.camera = new PerspectiveCamera();
+    this.camera.up.fromArray(up);
+    this.camera.position.fromArray(eye);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.minDistance = 0.05;
+    this.controls.maxDistance = 20;
+    this.controls.mouseButtons = {LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN};
+    this.controls.target.fromArray(target);
+    this.controls.update();
+    this.controls.saveState();
+    this.controls.addEventListener('change', changed);
+    canvas.addEventListener('dblclick', () => this.reset());
+  }
+
+  reset() { this.controls.reset(); }
+  turn(left, up) {
+    this.controls.rotateLeft(left);
+    this.controls.rotateUp(up);
+  }
+  nearer(factor) { this.controls.dollyIn(1 / factor); }
+
+  get yaw() { return this.controls.getAzimuthalAngle(); }
+  get pitch() { return Math.PI / 2 - this.controls.getPolarAngle(); }
+  get distance() { return this.controls.getDistance(); }
+
+  // To a picture of which parts of the height, above and below, are covered.
+  fit(width, height, {above, below}) {
+    const narrow = Math.min(1 - above - below, width / height);
+    this.camera.fov = MathUtils.radToDeg(2 * Math.atan(Math.tan(kAngle / 2) / narrow));
+    this.camera.near = 0.02 * this.distance;
+    this.camera.far = this.distance + 20;
+    this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, 0, 0.5 * (below - above) * height, width, height);
+  }
+}
