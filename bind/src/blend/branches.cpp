@@ -275,9 +275,10 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
   const std::span<const std::uint32_t> face_of =
       face.empty() ? std::span<const std::uint32_t>(data_->faces) : face;
   Branches out;
+  out.loose = data_->loose.list();
   out.nearest.resize(points.size());
   out.influences.resize(points.size());
-  std::vector<std::uint8_t> gated(points.size(), 0), cluster(points.size(), 0), loose(points.size(), 0);
+  std::vector<std::uint8_t> gated(points.size(), 0), cluster(points.size(), 0);
   in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<GridPlace> places;
     for (std::size_t i = begin; i < end; ++i) places.push_back(data_->grid.place(points[i], face_of[i]));
@@ -286,7 +287,6 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
     for (std::size_t i = begin; i < end; ++i) {
       if (const Candidate* held = data_->loose.held(face_of[i])) {
         out.nearest[i] = *held;
-        loose[i] = 1;
         continue;
       }
       bool is_gated = false, is_cluster = false;
@@ -298,7 +298,6 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!out.influences[i].empty()) out.ambiguous.push_back(i);
     if (gated[i] != 0) out.gated.push_back(i);
-    if (loose[i] != 0) out.loose.push_back(i);
     out.clusters += cluster[i];
   }
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tendril/bind/bind_options.h>
 #include <tendril/bind/polygon_mesh.h>
 #include <tendril/curve/closest_point.h>
 
@@ -27,7 +28,8 @@ struct Influence {
 struct Branches {
   std::vector<Candidate> nearest;                  ///< per point, of those not gated
   std::vector<std::vector<Influence>> influences;  ///< per point, none where the nearest alone counts
-  std::vector<std::uint32_t> ambiguous, gated, loose;
+  std::vector<std::uint32_t> ambiguous, gated;
+  std::vector<LoosePart> loose;
   std::size_t clusters = 0;
 };
 

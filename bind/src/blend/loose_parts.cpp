@@ -83,6 +83,21 @@ LooseParts::LooseParts(const PolygonMesh& body, std::span<const CurveProjector> 
     }
     if (beside) held_[one] = best;
   }
+  enlist(part);
+}
+
+void LooseParts::enlist(const std::vector<std::uint32_t>& part_of_point) {
+  constexpr auto none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place(held_.size(), none);
+  for (std::uint32_t i = 0; i < part_of_point.size(); ++i) {
+    const std::uint32_t part = part_of_point[i];
+    if (!held_[part]) continue;
+    if (place[part] == none) {
+      place[part] = list_.size();
+      list_.push_back({i, 0, held_[part]->pair, held_[part]->at.t});
+    }
+    ++list_[place[part]].points;
+  }
 }
 
 }  // namespace tendril::bind

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tendril/bind/bind_options.h>
+
 #include <functional>
 
 #include "branches.h"
@@ -25,10 +27,15 @@ class LooseParts {
     const bool loose = face < part_of_.size() && held_[part_of_[face]].has_value();
     return loose ? &*held_[part_of_[face]] : nullptr;
   }
+  /// By their first points.
+  const std::vector<LoosePart>& list() const { return list_; }
 
  private:
+  void enlist(const std::vector<std::uint32_t>& part_of_point);
+
   std::vector<std::uint32_t> part_of_;          ///< of each face
   std::vector<std::optional<Candidate>> held_;  ///< by part
+  std::vector<LoosePart> list_;
 };
 
 }  // namespace tendril::bind

@@ -95,6 +95,7 @@ void share(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindO
   });
   report.ambiguous = std::move(branches.ambiguous);
   report.gated = std::move(branches.gated);
+  report.loose = std::move(branches.loose);
   report.clusters = branches.clusters;
 }
 

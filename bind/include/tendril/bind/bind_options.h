@@ -40,6 +40,15 @@ struct Share {
   AxialPoint record;   ///< the point's coordinates there
 };
 
+/// A connected part of the mesh that sits in or on a limb, as an iris or a button does, and follows it whole,
+/// from one place of its axis.
+struct LoosePart {
+  std::uint32_t first;  ///< its first point
+  std::size_t points;   ///< how many it has
+  std::uint32_t pair;   ///< curve-pair that it follows
+  double t;             ///< parameter of the place there
+};
+
 /// What binding found out about its points. Lists are ascending.
 struct BindReport {
   /// Largest distance between a point and its update on the unmoved curve-pair [length].
@@ -58,6 +67,9 @@ struct BindReport {
   /// Points one of whose projections was left out: no path on the mesh, along which that projection varies
   /// continuously, leads to a point whose nearest it is.
   std::vector<std::uint32_t> gated;
+  /// Parts that follow one place of the axes, by their first points. None in BindMode::nearest to a single
+  /// curve-pair.
+  std::vector<LoosePart> loose;
   /// Number of points with a LocalMinimum::cluster among their projections.
   std::size_t clusters = 0;
   /// Number of shares, over all points.

@@ -68,7 +68,6 @@ class TENDRIL_BIND_API Binding {
   void update(std::span<const CurvePair> posed, MutablePoints out, int threads = 1) const;
   /// The same for one curve-pair.
   void update(const CurvePair& posed, MutablePoints out, int threads = 1) const;
-
   /// The same in binding order, which is the fastest: out.x[i] is of the point order()[i].
   void update(std::span<const CurvePair> posed, const Columns<double>& out, int threads = 1) const;
 
@@ -102,6 +101,8 @@ class TENDRIL_BIND_API Binding {
  private:
   friend class Bindingf;
   friend class BindingPoints;
+  friend class SurfaceBinder;
+  Binding() = default;
   std::shared_ptr<const BindingLayout> layout_;
   BindReport report_;
 };
