@@ -53,6 +53,7 @@ PolygonMesh hard_mesh() {
     mesh.point_normals.emplace_back(values[300 + 3 * i], values[301 + 3 * i], values[302 + 3 * i]);
     const auto byte = static_cast<std::uint8_t>(i);
     mesh.point_colors.push_back({byte, 0, 1, static_cast<std::uint8_t>(255 - i)});
+    mesh.point_texture.push_back({values[i + 3], values[i + 200]});
   }
   std::mt19937 random(3);
   for (std::uint32_t f = 0; f < 50; ++f) {
@@ -82,14 +83,32 @@ TEST(Export, RoundTripsBitForBit) {
 }
 
 TEST(Export, RoundTripsEachAttributeAlone) {
-  for (int kept = 0; kept < 3; ++kept) {
+  for (int kept = 0; kept < 4; ++kept) {
     PolygonMesh mesh = hard_mesh();
     if (kept != 0) mesh.point_normals.clear();
     if (kept != 1) mesh.point_colors.clear();
     if (kept != 2) mesh.face_colors.clear();
+    if (kept != 3) mesh.point_texture.clear();
     expect_same(parse_ply(ply_bytes(mesh), "mesh.ply"), mesh);
     expect_same(parse_off(off_text(mesh), "mesh.off"), mesh);
   }
+}
+
+/// A list of more than 255 numbers has a longer count than that of corners, which are half as many.
+TEST(Export, RoundTripsTextureCoordinatesOfCorners) {
+  for (PolygonMesh mesh : {house(), hard_mesh(), fan(127), fan(128), fan(256)}) {
+    const std::vector<double> values = hard_doubles(2 * mesh.corners.size());
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c)
+      mesh.corner_texture.push_back({values[2 * c], values[2 * c + 1]});
+    expect_same(parse_ply(ply_bytes(mesh), "mesh.ply"), mesh);
+    PolygonMesh without = mesh;
+    without.corner_texture.clear();
+    expect_same(parse_off(off_text(mesh), "mesh.off"), without);
+  }
+  PolygonMesh mesh = house();
+  mesh.corner_texture.assign(7, {0.1, 0.2});
+  EXPECT_EQ(parse_ply(ply_bytes(mesh, {.float32 = true}), "a").corner_texture[6],
+            (TextureCoordinate{0.1F, 0.2F}));
 }
 
 TEST(Export, WritesTheKnownText) {
@@ -141,6 +160,12 @@ TEST(Export, RefusesAMeshThatDoesNotFitTogether) {
   mesh = house();
   mesh.face_colors.resize(1);
   EXPECT_EQ(refused_place(mesh), "PolygonMesh: face_colors");
+  mesh = house();
+  mesh.corner_texture.resize(6);
+  EXPECT_EQ(refused_place(mesh), "PolygonMesh: corner_texture");
+  mesh = house();
+  mesh.point_texture.assign(5, {0.0, Limits::infinity()});
+  EXPECT_EQ(refused_place(mesh), "PolygonMesh: point_texture[0]");
   mesh = house();
   mesh.point_normals.assign(5, Vec3::Constant(Limits::infinity()));
   EXPECT_EQ(refused_place(mesh), "PolygonMesh: point_normals[0]");

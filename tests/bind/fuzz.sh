@@ -14,5 +14,9 @@ cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILE
 cmake --build build/fuzz --target import_fuzz
 mkdir -p build/fuzz/corpus
 cp tests/examples/box.off build/fuzz/corpus/
+printf 'v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0.5\nf 1/1/1 2/1/1 -1/-1/-1\nf 1 2 \\\n3\n' >build/fuzz/corpus/a.obj
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n' \
+  >build/fuzz/corpus/a.stl
+{ head -c 80 /dev/zero && printf '\1\0\0\0' && head -c 50 /dev/zero; } >build/fuzz/corpus/b.stl
 cd build/fuzz
 exec bin/import_fuzz corpus -runs="$runs" -max_len=4096 -print_final_stats=1

@@ -57,6 +57,15 @@ TEST(ParseOff, AcceptsAnEmptyMeshARepeatedVertexAndALargePolygon) {
   EXPECT_EQ(parse_off(text, "a").corners.size(), 100000);
 }
 
+TEST(ParseOff, ReadsTextureCoordinates) {
+  const std::vector<TextureCoordinate> texture{{.1, .2}, {.3, .4}, {.5, .6}};
+  const std::string plain = "STOFF 3 1 0\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2";
+  EXPECT_EQ(parse_off(plain, "a.off").point_texture, texture);
+  const std::string colored =
+      "STCOFF 3 1 0\n0 0 0 255 0 0 .1 .2\n1 0 0 255 0 0 255 .3 .4\n0 1 0 255 0 0 .5 .6\n3 0 1 2";
+  EXPECT_EQ(parse_off(colored, "a.off").point_texture, texture);
+}
+
 struct OffAttributes {
   const char* text;
   std::vector<Vec3> normals;
@@ -121,6 +130,7 @@ TEST(ParseOff, ReadsBinary) {
   expected.point_normals.assign(3, Vec3(0, 0, 1));
   expected.point_colors.assign(3, {255, 0, 0, 128});
   expected.face_colors = {{0, 255, 0, 255}, {170, 170, 170, 255}};
+  expected.point_texture.assign(3, {0.1F, 0.2F});
   expect_same(parse_off(file.str(), "a.off"), expected);
 }
 
@@ -177,6 +187,28 @@ TEST(ParsePly, SkipsExtraPropertiesAndReadsAttributes) {
   expected.point_colors.assign(3, {1, 2, 3, 255});
   expected.face_colors = {{255, 0, 0, 128}, {0, 51, 0, 255}};
   expect_same(parse_ply(text, "a.ply"), expected);
+}
+
+TEST(ParsePly, ReadsTextureCoordinatesOfPointsAndCorners) {
+  for (const auto& [s, t] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}) {
+    const std::string text = std::string("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n") +
+                             "property float y\nproperty float " + t + "\nproperty float " + s +
+                             "\nproperty float z\nelement face 1\nproperty list uchar float texcoord\n" +
+                             "property list uchar int vertex_indices\nproperty int texnumber\nend_header\n" +
+                             "0 0 .2 .1 0\n1 0 .4 .3 0\n0 1 .6 .5 0\n6 1 2 3 4 5 6 3 0 1 2 0\n";
+    PolygonMesh expected = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    expected.point_texture = {{.1, .2}, {.3, .4}, {.5, .6}};
+    expected.corner_texture = {{1, 2}, {3, 4}, {5, 6}};
+    expect_same(parse_ply(text, "a.ply"), expected);
+    // One alone is of no use, and a list that does not fit is none.
+    std::string part = text;
+    part.replace(part.find(std::string("float ") + t), 6 + std::string(t).size(), "float other");
+    expected.point_texture.clear();
+    expect_same(parse_ply(part, "a.ply"), expected);
+    part = text;
+    part.replace(part.find("6 1 2"), 11, "3 1 2 3");
+    EXPECT_THROW(parse_ply(part, "a.ply"), InvalidInput);
+  }
 }
 
 TEST(ParsePly, IgnoresAPartOfANormalOrColor) {
@@ -261,12 +293,42 @@ TEST(ReadMesh, ChoosesTheFormatByContent) {
     write_file_whole(path, bytes);
     expect_same(read_mesh(path), tetrahedron());
   }
-  for (const std::string bytes : {"", " \n# OFF\n", "solid a\n", "4 4 0\n"}) {
+  for (const std::string& bytes :
+       {obj_text(tetrahedron()), "# comment\nmtllib a.mtl\n" + obj_text(tetrahedron())}) {
+    write_file_whole(path, bytes);
+    expect_same(read_mesh(path), tetrahedron());
+  }
+  // Points of STL are in the order in which they appear.
+  const PolygonMesh triangle = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  for (const std::string& bytes :
+       {stl_bytes(triangle), stl_bytes(triangle, "solid"), stl_bytes(triangle, "OFF"), stl_text(triangle)}) {
+    write_file_whole(path, bytes);
+    expect_same(read_mesh(path), triangle);
+  }
+  for (const std::string bytes : {"", " \n# OFF\n", "solid a\n", "4 4 0\n", "hello v 0 0 0\n"}) {
     write_file_whole(path, bytes);
     EXPECT_THROW(read_mesh(path), InvalidInput) << bytes;
   }
   std::remove(path.c_str());
   EXPECT_THROW(read_mesh(path), FileError);
+}
+
+TEST(ReadMesh, ChoosesByNameWhereTheContentDoesNotTell) {
+  const std::string path = testing::TempDir() + "tendril-named-" + std::to_string(::getpid());
+  const std::string odd = "made_by somebody\n" + obj_text(tetrahedron());
+  std::vector<std::string> notes;
+  write_file_whole(path + ".OBJ", odd);
+  expect_same(read_mesh(path + ".OBJ", &notes), tetrahedron());
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("'made_by'"), std::string::npos) << notes[0];
+  write_file_whole(path + ".ply", odd);
+  EXPECT_THROW(read_mesh(path + ".ply", &notes), InvalidInput);
+  const PolygonMesh triangle = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  notes.clear();
+  write_file_whole(path + ".stl", stl_bytes(triangle) + "more");
+  expect_same(read_mesh(path + ".stl", &notes), triangle);
+  EXPECT_EQ(notes.size(), 1u);
+  for (const char* end : {".OBJ", ".ply", ".stl"}) std::remove((path + end).c_str());
 }
 
 /// Decimal comma and grouped thousands, as in much of Europe.

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/mesh_files.h"
+
 /// Meshes and bytes for the tests of import and export.
 namespace tendril::bind {
 
@@ -64,6 +66,13 @@ inline std::vector<std::uint64_t> bits(const std::vector<Vec3>& vectors) {
   return list;
 }
 
+inline std::vector<std::uint64_t> bits(const std::vector<TextureCoordinate>& list) {
+  std::vector<std::uint64_t> out;
+  for (const TextureCoordinate& at : list)
+    for (const double c : at) out.push_back(std::bit_cast<std::uint64_t>(c));
+  return out;
+}
+
 /// Every array equal, numbers bit for bit.
 inline void expect_same(const PolygonMesh& mesh, const PolygonMesh& expected) {
   EXPECT_EQ(bits(mesh.points), bits(expected.points));
@@ -72,6 +81,12 @@ inline void expect_same(const PolygonMesh& mesh, const PolygonMesh& expected) {
   EXPECT_EQ(bits(mesh.point_normals), bits(expected.point_normals));
   EXPECT_EQ(mesh.point_colors, expected.point_colors);
   EXPECT_EQ(mesh.face_colors, expected.face_colors);
+  EXPECT_EQ(bits(mesh.point_texture), bits(expected.point_texture));
+  EXPECT_EQ(bits(mesh.corner_texture), bits(expected.corner_texture));
 }
+
+using test::obj_text;
+using test::stl_bytes;
+using test::stl_text;
 
 }  // namespace tendril::bind

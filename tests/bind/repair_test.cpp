@@ -55,6 +55,23 @@ TEST(Repair, ChangesNothingWhereNothingIsOdd) {
   expect_same(repaired.mesh, mesh);
 }
 
+/// Of what merging shortens and turning reverses, the corners that stay keep theirs.
+TEST(Repair, KeepsTextureCoordinates) {
+  // Point 4 is where point 1 is, point 5 in no face; the second face is turned.
+  PolygonMesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}, {7, 7, 7}, {1, 1, 1}},
+                             {{0, 1, 4, 2, 3}, {1, 2, 6}, {0, 1, 1}});
+  for (std::size_t i = 0; i < 7; ++i) mesh.point_texture.push_back({static_cast<double>(i), 0.5});
+  for (std::size_t c = 0; c < 11; ++c) mesh.corner_texture.push_back({0.5, static_cast<double>(c)});
+  const PolygonMesh even = repair(mesh).mesh;
+  require_valid(even);
+  ASSERT_EQ(even.corners, (Ids{0, 1, 2, 3, 1, 4, 2}));
+  std::vector<double> points, corners;
+  for (const TextureCoordinate& at : even.point_texture) points.push_back(at[0]);
+  for (const TextureCoordinate& at : even.corner_texture) corners.push_back(at[1]);
+  EXPECT_EQ(points, (std::vector<double>{0, 1, 2, 3, 6}));
+  EXPECT_EQ(corners, (std::vector<double>{0, 1, 3, 4, 5, 7, 6}));
+}
+
 TEST(Repair, PutsAShatteredTorusTogether) {
   std::mt19937 random(5);
   const PolygonMesh whole = torus(12, 7);

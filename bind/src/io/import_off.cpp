@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "color_list.h"
+#include "io/values/color_list.h"
 #include "off_columns.h"
 
 namespace tendril::bind {
@@ -172,26 +172,34 @@ class TextBody {
   void read_as_told() {
     if (header_.normals) read_normal();
     const std::size_t texture = header_.texture ? 2 : 0;
-    if (!header_.colors) return pass_texture(texture);
+    if (!header_.colors) return read_texture(texture);
     const char* const expected = texture ? "3 or 4 color and 2 texture values" : "3 or 4 color values";
     LineRest rest = take_line(in_, 4 + texture);
     if (rest.trouble.empty() && rest.count < 3 + texture)
       rest.trouble = "only " + std::to_string(rest.count) + " values after the point";
-    if (!rest.trouble.empty()) return attributes_.point_colors.refuse(in_, rest.trouble, expected);
+    if (!rest.trouble.empty()) {
+      attributes_.texture.drop();
+      return attributes_.point_colors.refuse(in_, rest.trouble, expected);
+    }
     add_color(attributes_.point_colors, rest, rest.count - texture);
+    if (texture) mesh_.point_texture.push_back({rest.values[rest.count - 2], rest.values[rest.count - 1]});
   }
 
   void add_color(ColorList& colors, const LineRest& rest, std::size_t components) {
     colors.add(in_, std::span(rest.values).first(components), std::span(rest.fraction).first(components));
   }
 
-  void pass_texture(std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) finite(in_, in_.number(), "texture coordinate");
+  /// \param count  of numbers: none, or two
+  void read_texture(std::size_t count) {
+    if (count == 0) return;
+    TextureCoordinate at;
+    for (double& c : at) c = read_loosely(attributes_.texture, "texture coordinate");
+    mesh_.point_texture.push_back(at);
   }
 
   void read_column(const OffColumn& column) {
     if (column.kind == OffColumn::normal) return read_normal();
-    if (column.kind == OffColumn::texture) return pass_texture(column.count);
+    if (column.kind == OffColumn::texture) return read_texture(column.count);
     LineRest color;
     for (; color.count < column.count; ++color.count) {
       // What is no number becomes one outside any range, and is refused there with all others.

@@ -1,55 +1,15 @@
 #include <tendril/bind/import.h>
 
-#include "color_list.h"
-#include "import_values.h"
-#include "ply_header.h"
+#include "io/values/color_list.h"
+#include "io/values/import_values.h"
+#include "ply_plan.h"
 #include "ply_values.h"
 
 namespace tendril::bind {
 namespace {
 
-/// What the value of a property is used for.
-enum Slot : std::size_t { x, y, z, nx, ny, nz, red, green, blue, alpha, slot_count, indices, unused };
-constexpr std::array<std::string_view, slot_count> slot_names{"x",  "y",   "z",     "nx",   "ny",
-                                                              "nz", "red", "green", "blue", "alpha"};
-
-/// Which slot each property of an element fills.
-struct Plan {
-  std::vector<Slot> slots;
-  std::array<bool, slot_count> has{};
-  bool has_indices = false;
-
-  bool normals() const { return has[nx] && has[ny] && has[nz]; }
-  bool colors() const { return has[red] && has[green] && has[blue]; }
-};
-
+using namespace ply;
 using Record = std::array<double, slot_count>;
-
-Slot slot_of(const PlyProperty& property, bool face) {
-  if (property.count_type) {
-    const bool index_list = property.name == "vertex_indices" || property.name == "vertex_index";
-    return face && index_list ? indices : unused;
-  }
-  const auto* const name = std::find(slot_names.begin(), slot_names.end(), property.name);
-  const auto slot = static_cast<Slot>(name - slot_names.begin());
-  return slot == slot_count || (face && slot < red) ? unused : slot;
-}
-
-Plan make_plan(const PlyElement& element, bool face) {
-  Plan plan;
-  for (const PlyProperty& property : element.properties) {
-    const Slot slot = slot_of(property, face);
-    plan.slots.push_back(slot);
-    plan.has_indices |= slot == indices;
-    if (slot >= slot_count) continue;
-    plan.has[slot] = true;
-  }
-  for (Slot& slot : plan.slots) {  // a part of a normal or color is of no use
-    if (slot >= slot_count) continue;
-    if ((slot >= red && !plan.colors()) || (slot >= nx && slot <= nz && !plan.normals())) slot = unused;
-  }
-  return plan;
-}
 
 template <class Values>
 class BodyReader {
@@ -123,7 +83,7 @@ class BodyReader {
     } else if (!is_floating(property.type) && !is_whole(value)) {
       decoration.refuse(in_, in_.found() + " for an integer property", "a whole number");
     } else {
-      return slot >= red ? color_value(property, value, decoration) : value;
+      return slot >= red && slot <= alpha ? color_value(property, value, decoration) : value;
     }
     return 0;
   }
@@ -157,13 +117,39 @@ class BodyReader {
         skip_property(property);
       } else if (slot == indices) {
         take_face(property);
+      } else if (slot == texcoord) {
+        take_texcoord(property);
       } else if (slot >= nx) {
-        record[slot] = take_decoration(property, slot, slot >= red ? colors : attributes_.normals);
+        record[slot] = take_decoration(property, slot, decoration_of(slot, colors));
       } else {
         record[slot] = take(property);
       }
     }
     if (!in_.end_record()) pass_surplus(colors, &element == header_.find("vertex"));
+  }
+
+  Decoration& decoration_of(Slot slot, Decoration& colors) {
+    return slot >= tex_s ? attributes_.texture : slot >= red ? colors : attributes_.normals;
+  }
+
+  /// A pair for each corner of a face. It may stand before them, so that its length is looked at in the end.
+  void take_texcoord(const PlyProperty& list) {
+    texcoord_.clear();
+    for (std::uint64_t left = list_length(list); left > 0; --left)
+      texcoord_.push_back(take_decoration(list, tex_s, attributes_.texture));
+  }
+
+  void add_texcoord() {
+    const std::size_t corners = mesh_.corners.size() - mesh_.corner_texture.size();
+    if (texcoord_.size() != 2 * corners) {
+      attributes_.texture.refuse(in_,
+                                 std::to_string(texcoord_.size()) + " texture coordinates for " +
+                                     std::to_string(corners) + " corners",
+                                 "two a corner");
+      texcoord_.assign(2 * corners, 0.0);
+    }
+    for (std::size_t k = 0; k < corners; ++k)
+      mesh_.corner_texture.push_back({texcoord_[2 * k], texcoord_[2 * k + 1]});
   }
 
   /// More values in a line than the header declares: what follows the coordinates or corners is not what it
@@ -175,6 +161,7 @@ class BodyReader {
     if (!surplus_) notes_.add(in_.place() + reason + ": no colors or normals of such lines are kept");
     surplus_ = true;
     colors.drop();
+    attributes_.texture.drop();
     if (vertex) attributes_.normals.drop();
     in_.pass_line();
   }
@@ -189,6 +176,7 @@ class BodyReader {
     reserve_within(mesh_.points, element.count, bytes, least);
     if (plan.normals()) reserve_within(mesh_.point_normals, element.count, bytes, least);
     if (plan.colors()) reserve_within(mesh_.point_colors, element.count, bytes, least);
+    if (plan.texture()) reserve_within(mesh_.point_texture, element.count, bytes, least);
     Record record{};
     record[alpha] = 255;
     for (std::size_t v = 0; v < element.count; ++v) {
@@ -197,6 +185,7 @@ class BodyReader {
       mesh_.points.emplace_back(record[x], record[y], record[z]);
       if (plan.normals()) mesh_.point_normals.emplace_back(record[nx], record[ny], record[nz]);
       if (plan.colors()) mesh_.point_colors.push_back(color_of(record));
+      if (plan.texture()) mesh_.point_texture.push_back({record[tex_s], record[tex_t]});
     }
   }
 
@@ -207,12 +196,14 @@ class BodyReader {
     reserve_within(mesh_.face_begin, element.count + 1, bytes, least);
     reserve_within(mesh_.corners, 3 * element.count, bytes, least_of_corner(element));
     if (plan.colors()) reserve_within(mesh_.face_colors, element.count, bytes, least);
+    const bool with_texture = std::find(plan.slots.begin(), plan.slots.end(), texcoord) != plan.slots.end();
     Record record{};
     record[alpha] = 255;
     for (std::size_t f = 0; f < element.count; ++f) {
       in_.at("face", f);
       read_record(element, plan, attributes_.face_colors, record);
       if (plan.colors()) mesh_.face_colors.push_back(color_of(record));
+      if (with_texture) add_texcoord();
     }
   }
 
@@ -265,6 +256,7 @@ class BodyReader {
   const PlyHeader& header_;
   Notes notes_;
   Attributes<Decoration> attributes_;
+  std::vector<double> texcoord_;  ///< of the face being read
   bool surplus_ = false;
   std::size_t points_ = 0;
   PolygonMesh mesh_;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "color_list.h"
+#include "io/values/color_list.h"
 #include "off_header.h"
 
 namespace tendril::bind {
@@ -59,8 +59,18 @@ class BinaryBody {
     }
     if (header_.normals) mesh_.point_normals.push_back(normal);
     if (header_.colors) read_color(4, attributes_.point_colors);
-    for (int k = 0; header_.texture && k < 2; ++k)
-      finite(in_, in_.number(Scalar::float32), "texture coordinate");
+    if (header_.texture) read_texture();
+  }
+
+  void read_texture() {
+    TextureCoordinate at;
+    for (double& c : at) {
+      c = in_.number(Scalar::float32);
+      if (!std::isfinite(c))
+        attributes_.texture.refuse(in_, "texture coordinate " + in_.found() + " is not finite",
+                                   "a finite number");
+    }
+    mesh_.point_texture.push_back(at);
   }
 
   void read_color(std::size_t count, ColorList& colors) {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "color_list.h"
+#include "io/values/color_list.h"
 
 namespace tendril::bind {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cursor.h"
-#include "import_values.h"
+#include "io/values/cursor.h"
+#include "io/values/import_values.h"
 
 /// What the two kinds of OFF share.
 namespace tendril::bind {
@@ -15,6 +15,7 @@ inline void reserve(PolygonMesh& mesh, const OffHeader& header, std::size_t byte
                     std::size_t least_face, std::size_t least_corner) {
   reserve_within(mesh.points, header.vertices, bytes, least_vertex);
   if (header.normals) reserve_within(mesh.point_normals, header.vertices, bytes, 2 * least_vertex);
+  if (header.texture) reserve_within(mesh.point_texture, header.vertices, bytes, 2 * least_vertex);
   reserve_within(mesh.face_begin, header.faces + 1, bytes, least_face);
   reserve_within(mesh.corners, 3 * header.faces, bytes, least_corner);
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cursor.h"
-#include "import_values.h"
+#include "io/values/cursor.h"
+#include "io/values/import_values.h"
 
 /// The header of a PLY file: which elements follow, how many of each, and what one of them is made of.
 namespace tendril::bind {

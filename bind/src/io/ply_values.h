@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cursor.h"
-#include "import_values.h"
+#include "io/values/cursor.h"
+#include "io/values/import_values.h"
 
 /// The two ways to take a PLY file's values, with one interface, so that one body reader serves both.
 namespace tendril::bind {

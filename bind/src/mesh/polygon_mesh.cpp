@@ -1,6 +1,7 @@
 #include <tendril/base/error.h>
 #include <tendril/bind/polygon_mesh.h>
 
+#include <cmath>
 #include <string>
 
 namespace tendril::bind {
@@ -15,6 +16,12 @@ void require_finite(const std::vector<Vec3>& vectors, const char* array) {
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     if (!is_finite(vectors[i])) fail(array, i, "a value that is not finite", "finite numbers");
   }
+}
+
+void require_finite(const std::vector<TextureCoordinate>& list, const char* array) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!std::isfinite(list[i][0]) || !std::isfinite(list[i][1]))
+      fail(array, i, "a value that is not finite", "finite numbers");
 }
 
 void require_size(std::size_t size, std::size_t items, const char* array) {
@@ -45,7 +52,11 @@ void require_valid(const PolygonMesh& mesh) {
   require_finite(mesh.point_normals, "point_normals");
   require_size(mesh.point_normals.size(), mesh.points.size(), "point_normals");
   require_size(mesh.point_colors.size(), mesh.points.size(), "point_colors");
+  require_finite(mesh.point_texture, "point_texture");
+  require_finite(mesh.corner_texture, "corner_texture");
+  require_size(mesh.point_texture.size(), mesh.points.size(), "point_texture");
   require_faces(mesh);
+  require_size(mesh.corner_texture.size(), mesh.corners.size(), "corner_texture");
   require_size(mesh.face_colors.size(), mesh.face_count(), "face_colors");
   for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
     if (mesh.corners[c] < mesh.points.size()) continue;

@@ -34,10 +34,11 @@ class Mender {
     out_.point = to;
     for (std::uint32_t& corner : out_.mesh.corners) corner = out_.point[corner];
     Ids shortened;
-    keep_faces([&](std::uint32_t f, Ids& face) {
+    keep_faces([&](std::uint32_t f, const Ids& corners, Ids& face) {
       const std::size_t before = face.size();
-      face.erase(std::unique(face.begin(), face.end()), face.end());
-      while (face.size() > 1 && face.front() == face.back()) face.pop_back();
+      const auto same = [&](std::uint32_t a, std::uint32_t b) { return corners[a] == corners[b]; };
+      face.erase(std::unique(face.begin(), face.end(), same), face.end());
+      while (face.size() > 1 && same(face.front(), face.back())) face.pop_back();
       if (face.size() < before && face.size() > 2) shortened.push_back(f);
       return face.size() > 2;
     });
@@ -76,23 +77,28 @@ class Mender {
     Edge edge;
   };
 
-  /// Faces that `keep` wants, as it leaves their corners; it is told their ids before.
+  /// Faces that `keep` wants. It is told their ids before, the corners of all faces, and which of these are
+  /// the face's, of which it may take some out.
   template <class Keep>
   void keep_faces(const Keep& keep) {
     const PolygonMesh before = std::exchange(out_.mesh, PolygonMesh{});
     out_.mesh.points = before.points;
     out_.mesh.point_normals = before.point_normals;
     out_.mesh.point_colors = before.point_colors;
+    out_.mesh.point_texture = before.point_texture;
     Ids now(before.face_count(), kDropped);
     Ids first(before.face_count(), kDropped);
     for (std::uint32_t f = 0; f < out_.face.size(); ++f)
       if (out_.face[f] != kDropped) first[out_.face[f]] = f;
     for (std::uint32_t f = 0; f < before.face_count(); ++f) {
-      const auto corners = before.face(f);
-      Ids face(corners.begin(), corners.end());
-      if (!keep(first[f], face)) continue;
+      Ids face(before.face(f).size());
+      std::iota(face.begin(), face.end(), before.face_begin[f]);
+      if (!keep(first[f], before.corners, face)) continue;
       now[f] = static_cast<std::uint32_t>(out_.mesh.face_count());
-      out_.mesh.corners.insert(out_.mesh.corners.end(), face.begin(), face.end());
+      for (const std::uint32_t c : face) {
+        out_.mesh.corners.push_back(before.corners[c]);
+        if (!before.corner_texture.empty()) out_.mesh.corner_texture.push_back(before.corner_texture[c]);
+      }
       out_.mesh.face_begin.push_back(static_cast<std::uint32_t>(out_.mesh.corners.size()));
       if (!before.face_colors.empty()) out_.mesh.face_colors.push_back(before.face_colors[f]);
     }
@@ -103,7 +109,7 @@ class Mender {
   void drop_faces(const Ids& ids, const Ids& spared) {
     if (ids.empty()) return;
     std::uint32_t f = 0;
-    keep_faces([&](std::uint32_t before, Ids&) { return !has(ids, f++) || has(spared, before); });
+    keep_faces([&](std::uint32_t before, const Ids&, Ids&) { return !has(ids, f++) || has(spared, before); });
   }
 
   std::vector<std::vector<Link>> links() const;
@@ -189,8 +195,13 @@ void Mender::turn(const std::vector<char>& over) {
     if (!over[f]) continue;
     out_.turned.push_back(f);
     // The first corner stays the first.
-    std::reverse(mesh.corners.begin() + mesh.face_begin[f] + 1,
-                 mesh.corners.begin() + mesh.face_begin[f + 1]);
+    const auto reverse = [&](auto& of_corners) {
+      if (!of_corners.empty())
+        std::reverse(of_corners.begin() + mesh.face_begin[f] + 1,
+                     of_corners.begin() + mesh.face_begin[f + 1]);
+    };
+    reverse(mesh.corners);
+    reverse(mesh.corner_texture);
   }
   for (std::size_t i = 0; i < mesh.point_normals.size(); ++i)
     if (touched[i] && !kept[i]) mesh.point_normals[i] = -mesh.point_normals[i];
@@ -210,10 +221,12 @@ void Mender::drop_isolated() {
     move(mesh.points, now[i], i);
     move(mesh.point_normals, now[i], i);
     move(mesh.point_colors, now[i], i);
+    move(mesh.point_texture, now[i], i);
   }
   mesh.points.resize(next);
   if (!mesh.point_normals.empty()) mesh.point_normals.resize(next);
   if (!mesh.point_colors.empty()) mesh.point_colors.resize(next);
+  if (!mesh.point_texture.empty()) mesh.point_texture.resize(next);
   for (std::uint32_t& corner : mesh.corners) corner = now[corner];
   for (std::uint32_t& id : out_.point) id = now[id];
 }

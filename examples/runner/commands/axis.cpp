@@ -149,7 +149,7 @@ Command axis_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("axis", "Finds a tree of curve-pairs along the middle of a closed mesh");
   const auto options = std::make_shared<Options>();
   axis::AxisOptions& how = options->find;
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "curve file (JSON) to write")->required();
   app->add_flag("--close", how.close, "close holes in a copy of the mesh");
   app->add_flag("--largest-part", how.largest_part, "take the part with the largest area");

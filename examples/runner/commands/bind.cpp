@@ -180,7 +180,7 @@ Command bind_command(CLI::App& parent) {
   auto* app = parent.add_subcommand(
       "bind", "Binds a mesh to axes and judges by refinement whether a pose tears or crumples it");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--axis", options->axes,
                   "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")
       ->required();

@@ -32,6 +32,8 @@ OrderedJson to_json(const bind::PolygonMesh& mesh, const bind::MeshReport& repor
           {"point_normals", !mesh.point_normals.empty()},
           {"point_colors", !mesh.point_colors.empty()},
           {"face_colors", !mesh.face_colors.empty()},
+          {"point_texture", !mesh.point_texture.empty()},
+          {"corner_texture", !mesh.corner_texture.empty()},
           {"components", report.components},
           {"boundary_edges", report.boundary_edges},
           {"boundary_loops", report.boundary_loops},
@@ -86,7 +88,7 @@ int check(const Options& options) {
 Command check_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("check", "What a mesh file holds, and what is odd about it");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_flag("--json", options->json, "print JSON, with the ids of all that is odd");
   app->add_flag("--strict", options->strict, "refuse what is read with a note otherwise");
   return {app, [options] { return check(*options); }};

@@ -72,7 +72,8 @@ Command collide_command(CLI::App& parent) {
                                     "What meets a mesh, exactly: points, balls, segments, triangles, "
                                     "or a second mesh");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "scene file (JSON) with a mesh, or an OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "scene file (JSON) with a mesh, or a mesh (OFF, PLY, OBJ, STL)")
+      ->required();
   app->add_option("queries", options->queries, "file of queries (JSON), or a mesh (OFF, PLY)")->required();
   app->add_option("--pose", options->posing.pose,
                   "curve file (JSON): the scene's curve-pairs posed, or those of --axis");

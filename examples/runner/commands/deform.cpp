@@ -6,7 +6,6 @@
 
 #include <tendril/base/file.h>
 #include <tendril/bind/distortion.h>
-#include <tendril/bind/export.h>
 #include <tendril/curve/equal_length.h>
 
 #include <cstdio>
@@ -87,7 +86,7 @@ int deform(const Options& options) {
   const bind::Distortion distortion = bind::measure_distortion(binding, axes.rest, mesh, axes.posed, points);
   if (!mesh.point_normals.empty()) mesh.point_normals = bind::posed_normals(mesh, points);
   mesh.points = std::move(points);
-  bind::write_mesh(options.out, mesh);
+  save_mesh(options.out, mesh);
   warn(options.out, distortion);
   tell(options, binding.report(), distortion, mesh.points.size());
   return kDone;
@@ -98,7 +97,7 @@ int deform(const Options& options) {
 Command deform_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")
       ->required();
   app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();

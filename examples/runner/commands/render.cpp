@@ -94,7 +94,7 @@ int thread_count(int asked) {
 Command render_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("render", "A picture of a mesh or a frame, without a display");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "PNG file to write")->required();
   app->add_option("--axis", options->axis, "curve file (JSON) to draw over the mesh, with nodes and names");
   app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();

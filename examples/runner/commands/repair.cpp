@@ -2,7 +2,6 @@
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
 
-#include <tendril/bind/export.h>
 #include <tendril/bind/repair.h>
 
 #include <iostream>
@@ -77,7 +76,7 @@ int run(const Options& options) {
                                                       .orient = !options.keep_orientation,
                                                       .drop_isolated = !options.keep_isolated,
                                                       .merge_distance = options.merge_distance});
-  bind::write_mesh(options.out, repaired.mesh);
+  save_mesh(options.out, repaired.mesh);
   const OrderedJson what = to_json(repaired);
   if (options.json) {
     print(what);
@@ -98,7 +97,7 @@ Command repair_command(CLI::App& parent) {
   auto* app =
       parent.add_subcommand("repair", "Mends what check finds odd about a mesh, and says what it did");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "OFF or PLY file to write")->required();
   app->add_flag("--keep-points", options->keep_points, "merge no points of the same place");
   app->add_option("--merge-distance", options->merge_distance,

@@ -136,7 +136,7 @@ Command rig_command(CLI::App& parent) {
   auto* app = parent.add_subcommand(
       "rig", "Makes a scene of a mesh: axes, sections, material, supports, gravity and wind");
   const auto options = std::make_shared<Options>();
-  app->add_option("mesh", options->mesh, "OFF or PLY file")->required();
+  app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "scene file (JSON) to write")->required();
   app->add_option("--axis", options->axes.file, "curve file to start from, instead of axes that are found");
   app->add_flag("--close", options->axes.close, "find the axes of a copy whose holes are closed");

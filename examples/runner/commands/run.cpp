@@ -32,7 +32,7 @@ struct Options {
 bool is_mesh(const std::string& path) {
   std::string type = std::filesystem::path(path).extension().string();
   std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  return type == ".off" || type == ".ply";
+  return type == ".off" || type == ".ply" || type == ".obj" || type == ".stl";
 }
 
 /// A mesh in place of a scene gets one, as `tendril rig` makes it, beside what the run writes.
@@ -158,11 +158,11 @@ Command run_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("run", "Moves a scene's curve-pairs, and the mesh with them");
   const auto options = std::make_shared<Options>();
   app->add_option("scene", options->scene,
-                  "scene file (JSON); or an OFF or PLY file, which `tendril rig` is asked for first")
+                  "scene file (JSON); or a mesh (OFF, PLY, OBJ, STL), which `tendril rig` is asked for first")
       ->required();
   app->add_option("--out", options->out, "folder for what the run writes; made when it is not there")
       ->required();
-  app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
+  app->add_option("--mesh", options->mesh, "mesh (OFF, PLY, OBJ, STL) to use instead of the scene's");
   app->add_option("--threads", options->threads, "threads, 0 for all; results are the same");
   options->mode.add_to(*app);
   app->add_flag("--no-frames", options->no_frames, "write no frame_NNNN.ply");

@@ -156,7 +156,7 @@ Command statics_command(CLI::App& parent) {
   const auto options = std::make_shared<Options>();
   app->add_option("scene", options->scene, "scene file (JSON)")->required();
   app->add_option("--out", options->out, "folder for masses, mesh, pictures and summary of the equilibrium");
-  app->add_option("--mesh", options->mesh, "OFF or PLY file to use instead of the scene's");
+  app->add_option("--mesh", options->mesh, "mesh (OFF, PLY, OBJ, STL) to use instead of the scene's");
   app->add_option("--load", options->statics.last_load, "share of all forces, 1 by default");
   app->add_option("--first-load", options->statics.first_load,
                   "share of all forces at the start; by default the scene's, else 0, or all of them where "

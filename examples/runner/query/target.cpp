@@ -148,7 +148,8 @@ Target of_mesh(const std::string& path, const Posing& posing) {
 
 bool is_json(const std::string& path) {
   if (path.ends_with(".json")) return true;
-  if (path.ends_with(".off") || path.ends_with(".ply")) return false;
+  for (const char* mesh : {".off", ".ply", ".obj", ".stl"})
+    if (path.ends_with(mesh)) return false;
   const std::string bytes = read_file(path);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string::npos && bytes[first] == '{';

@@ -1,5 +1,6 @@
 #include "read/mesh_reader.h"
 
+#include <tendril/bind/export.h>
 #include <tendril/scene/bound_mesh.h>
 
 #include <iostream>
@@ -25,6 +26,12 @@ bind::PolygonMesh read_mesh(const scene::SceneFile& file) {
   bind::PolygonMesh mesh = scene::read_scene_mesh(file, &notes);
   tell(notes);
   return mesh;
+}
+
+void save_mesh(const std::string& path, const bind::PolygonMesh& mesh) {
+  bind::write_mesh(path, mesh);
+  if (path.ends_with(".off") && !mesh.corner_texture.empty())
+    tell({path + ": OFF has no place for texture coordinates of corners: left out"});
 }
 
 }  // namespace tendril::runner

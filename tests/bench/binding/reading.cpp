@@ -1,7 +1,7 @@
-#include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <tendril/base/file.h>
 #include <tendril/bind/export.h>
 #include <tendril/bind/import.h>
@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "bench/binding/sections.h"
 #include "bench/clock.h"
+#include "support/mesh_files.h"
 #ifdef TENDRIL_BENCH_OPENMESH
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -71,13 +71,23 @@ std::string off_binary(const bind::PolygonMesh& mesh) {
 struct Kind {
   const char* name;
   const char* extension;
-  bool off, binary;
+  bool binary;
+  std::string (*bytes)(const bind::PolygonMesh&);
 
-  std::string bytes(const bind::PolygonMesh& mesh) const {
-    if (off) return binary ? off_binary(mesh) : bind::off_text(mesh);
-    return binary ? bind::ply_bytes(mesh) : ply_text(mesh);
+  bool is(const char* format) const { return std::string(name).starts_with(format); }
+  /// Whether what was read is what was written, bit for bit where the format has double precision. STL has
+  /// its points in another order.
+  bool holds(const bind::PolygonMesh& read, const bind::PolygonMesh& mesh) const {
+    if (read.points.size() != mesh.points.size() || read.corners.size() != mesh.corners.size()) return false;
+    const bool single = binary && !is("PLY");
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+      const Vec3 &a = read.points[read.corners[c]], &b = mesh.points[mesh.corners[c]];
+      if (single ? a != b.cast<float>().cast<double>() : a != b) return false;
+    }
+    return is("STL") || read.corners == mesh.corners;
   }
 };
+using Soup = std::vector<std::vector<std::size_t>>;
 
 /// Seconds, or none when the file was not read in full.
 double timed(int repeats, std::size_t vertices, const std::function<std::size_t()>& read) {
@@ -91,25 +101,19 @@ double timed(int repeats, std::size_t vertices, const std::function<std::size_t(
   return got == vertices ? seconds : std::nan("");
 }
 
-double cgal_mesh(const std::string& path, const Kind& kind, int repeats, std::size_t vertices) {
+double cgal_mesh(const std::string& path, int repeats, std::size_t vertices) {
   return timed(repeats, vertices, [&] {
     CGAL::Surface_mesh<Point> mesh;
-    if (kind.off) {
-      CGAL::IO::read_OFF(path, mesh);
-    } else {
-      std::ifstream in(path, std::ios::binary);
-      CGAL::IO::read_PLY(in, mesh);
-    }
+    CGAL::IO::read_polygon_mesh(path, mesh);
     return std::size_t{mesh.number_of_vertices()};
   });
 }
 
-double cgal_soup(const std::string& path, const Kind& kind, int repeats, std::size_t vertices) {
+double cgal_soup(const std::string& path, int repeats, std::size_t vertices) {
   return timed(repeats, vertices, [&] {
     std::vector<Point> points;
-    std::vector<std::vector<std::size_t>> faces;
-    std::ifstream in(path, std::ios::binary);
-    kind.off ? CGAL::IO::read_OFF(in, points, faces) : CGAL::IO::read_PLY(in, points, faces);
+    Soup faces;
+    CGAL::IO::read_polygon_soup(path, points, faces);
     return points.size();
   });
 }
@@ -140,14 +144,18 @@ OrderedJson reading_section(Settings& settings) {
   std::filesystem::create_directories(folder);
   Table table({"file", "MB", "ours", "CGAL Surface_mesh", "CGAL polygon soup", "OpenMesh"});
   OrderedJson out;
-  for (const Kind& kind : {Kind{"OFF text", ".off", true, false}, Kind{"OFF binary", ".off", true, true},
-                           Kind{"PLY text", ".ply", false, false}, Kind{"PLY binary", ".ply", false, true}}) {
+  for (const Kind& kind :
+       {Kind{"OFF text", ".off", false, bind::off_text}, Kind{"OFF binary", ".off", true, off_binary},
+        Kind{"PLY text", ".ply", false, ply_text},
+        Kind{"PLY binary", ".ply", true, [](const auto& m) { return bind::ply_bytes(m); }},
+        Kind{"OBJ", ".obj", false, test::obj_text},
+        Kind{"STL text", ".stl", false, [](const auto& m) { return test::stl_text(m); }},
+        Kind{"STL binary", ".stl", true, [](const auto& m) { return test::stl_bytes(m); }}}) {
     const std::string path = (folder / (std::string("sheet") + kind.extension)).string();
     write_file_whole(path, kind.bytes(mesh));
     bind::PolygonMesh read;
     const double ours = fastest(settings.quick ? 3 : 5, [&] { read = bind::read_mesh(path); });
-    const bool single = kind.off && kind.binary;
-    if ((read.points != mesh.points && !single) || read.corners != mesh.corners)
+    if (!kind.holds(read, mesh))
       settings.broken.push_back(std::string(kind.name) + " does not come back bit for bit");
     std::vector<std::string> row{kind.name,
                                  text("%.0f", 1e-6 * static_cast<double>(std::filesystem::file_size(path))),
@@ -158,8 +166,8 @@ OrderedJson reading_section(Settings& settings) {
       row.push_back(text("%.1f", seconds / ours));
       entry[name] = seconds / ours;
     };
-    peer("cgal_surface_mesh", cgal_mesh(path, kind, repeats, mesh.points.size()));
-    peer("cgal_polygon_soup", cgal_soup(path, kind, repeats, mesh.points.size()));
+    peer("cgal_surface_mesh", cgal_mesh(path, repeats, mesh.points.size()));
+    peer("cgal_polygon_soup", cgal_soup(path, repeats, mesh.points.size()));
     peer("open_mesh", open_mesh(path, kind, repeats, mesh.points.size()));
     table.row(row);
     out.push_back(entry);

@@ -13,7 +13,10 @@ namespace tendril::bind {
 /// 8-bit red, green, blue, alpha.
 using Color = std::array<std::uint8_t, 4>;
 
-/// A polygon soup on flat arrays, with the attributes OFF and PLY files carry. It makes no promise on
+/// Where a point of a surface lies in a picture: s, t.
+using TextureCoordinate = std::array<double, 2>;
+
+/// A polygon soup on flat arrays, with the attributes that mesh files carry. It makes no promise on
 /// manifoldness or orientation: inspect() in inspect.h reports those.
 ///
 /// Face f has the corners `corners[face_begin[f] .. face_begin[f + 1])`, indices into `points`. `face_begin`
@@ -27,6 +30,9 @@ struct PolygonMesh {
   std::vector<Color> point_colors;  ///< none, or one per point
   std::vector<Color> face_colors;   ///< none, or one per face
 
+  std::vector<TextureCoordinate> point_texture;   ///< none, or one per point
+  std::vector<TextureCoordinate> corner_texture;  ///< none, or one per corner: a point may have several
+
   std::size_t face_count() const { return face_begin.size() - 1; }  ///< number of faces
   /// Corners of face f < face_count(), valid as long as the mesh.
   std::span<const std::uint32_t> face(std::size_t f) const {
@@ -36,8 +42,8 @@ struct PolygonMesh {
 
 /// Throws InvalidInput("PolygonMesh: array[i]", ...) unless the arrays fit together: face_begin starts with
 /// 0, grows by at least 3 per face and ends with the number of corners; corners name points that exist;
-/// points and normals are finite; each attribute is empty or has one entry per point or face. O(points +
-/// corners).
+/// points, normals and texture coordinates are finite; each attribute is empty or has one entry per point,
+/// face or corner. O(points + corners).
 TENDRIL_BIND_API void require_valid(const PolygonMesh& mesh);
 
 /// Every face as a fan of triangles about its first corner, face after face.

@@ -79,15 +79,19 @@ class ColorList {
 template <class Colors>
 struct Attributes {
   explicit Attributes(const Notes& notes)
-      : normals("normals", notes), point_colors("vertex colors", notes), face_colors("face colors", notes) {}
+      : normals("normals", notes),
+        texture("texture coordinates", notes),
+        point_colors("vertex colors", notes),
+        face_colors("face colors", notes) {}
 
   void finish(PolygonMesh& mesh) const {
     if (normals.dropped()) mesh.point_normals.clear();
+    if (texture.dropped()) mesh.point_texture.clear(), mesh.corner_texture.clear();
     finish(point_colors, mesh.point_colors);
     finish(face_colors, mesh.face_colors);
   }
 
-  Decoration normals;
+  Decoration normals, texture;
   Colors point_colors, face_colors;
 
  private:

@@ -53,6 +53,9 @@ class TextCursor : public ItemName {
   std::string_view token_in_line();
   /// True when nothing but blanks and comments is left in this line.
   bool line_done();
+  /// Takes a backslash that stands alone at the end of this line, with the line's end; false when there is
+  /// none.
+  bool take_continuation();
   /// True when nothing but blanks, comments and line ends is left.
   bool done();
   /// Takes the rest of the line with its end, and returns it without. The line end's own form is kept for the

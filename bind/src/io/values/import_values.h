@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Notes, checks on single values and the building of a mesh, shared by the OFF and PLY readers. `Cursor` is
+/// Notes, checks on single values and the building of a mesh, shared by all readers. `Cursor` is
 /// TextCursor, ByteCursor or anything else with found() and fail(): errors are placed at the value it took
 /// last.
 namespace tendril::bind {
@@ -24,6 +24,10 @@ class Notes {
 
   bool tolerant() const { return list_ != nullptr; }
   void add(std::string note) const { list_->push_back(std::move(note)); }
+  /// Of what is well-formed and documented to be left out: nobody need be told.
+  void mention(std::string note) const {
+    if (tolerant()) add(std::move(note));
+  }
 
  private:
   std::vector<std::string>* list_;
@@ -113,8 +117,10 @@ inline std::uint8_t to_byte(double value) {
   return static_cast<std::uint8_t>(std::lround(value));
 }
 
-/// parse_off and parse_ply with notes, as read_mesh has them.
+/// parse_off and the like with notes, as read_mesh has them.
 PolygonMesh read_off(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
 PolygonMesh read_ply(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
+PolygonMesh read_obj(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
+PolygonMesh read_stl(std::string_view bytes, const std::string& name, std::vector<std::string>* notes);
 
 }  // namespace tendril::bind

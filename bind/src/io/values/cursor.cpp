@@ -59,6 +59,17 @@ std::string_view TextCursor::token_in_line() {
   return take_token();
 }
 
+bool TextCursor::take_continuation() {
+  skip_blanks();
+  if (next_ == bytes_.size() || bytes_[next_] != '\\') return false;
+  std::size_t end = next_ + 1;
+  while (end < bytes_.size() && kind_of(bytes_[end]) == blank) ++end;
+  if (end < bytes_.size() && kind_of(bytes_[end]) != line_end) return false;
+  next_ = end;
+  if (end < bytes_.size()) take_line_end();
+  return true;
+}
+
 bool TextCursor::done() {
   skip_to_token();
   return next_ == bytes_.size();
