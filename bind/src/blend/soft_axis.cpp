@@ -8,6 +8,8 @@ namespace tendril::bind {
 namespace {
 
 constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 16;
+constexpr std::size_t kBlock = 8;         ///< samples
+constexpr double kRoom = 1e-9;            ///< for rounding, relative
 constexpr double kSamplesPerSide = 12.0;  ///< on either side of a minimum on a straight line
 constexpr double kFaint = 1e-3;           ///< weight that fades to nothing
 constexpr double kRounding = 1e-9;        ///< of places, over the scale, at most
@@ -68,7 +70,7 @@ std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
 SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : band_(band) {
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
-    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, {}, {}, 0.0};
+    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, {}, {}, 0.0, {}};
     const auto sample = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
@@ -85,8 +87,28 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
       for (int k = 1; k <= kSamplesPerSpan; ++k)
         sample(k == kSamplesPerSpan ? piece.end
                                     : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
+    one.blocks = blocks_of(one.points);
     curves_.push_back(std::move(one));
   }
+}
+
+/// Neighbouring blocks have a sample in common, so that each pair of consecutive ones is in a block.
+std::vector<SoftAxis::Block> SoftAxis::blocks_of(const std::vector<Vec3>& points) {
+  std::vector<Block> out;
+  for (std::size_t first = 0; first + 1 < points.size(); first += kBlock) {
+    const std::size_t last = std::min(first + kBlock, points.size() - 1);
+    Block block{0.5 * (points[first] + points[last]), 0.0, first, last};
+    for (std::size_t k = first; k <= last; ++k)
+      block.radius = std::max(block.radius, (points[k] - block.centre).norm());
+    block.radius *= 1.0 + kRoom;
+    out.push_back(block);
+  }
+  return out;
+}
+
+SoftAxis::Bounds SoftAxis::bounds_of(const Block& block, const Site& site) {
+  const double away = (site.p - block.centre).norm(), apart = (site.nearest().at.point - block.centre).norm();
+  return {away - block.radius - kRoom * away, apart + block.radius + kRoom * apart};
 }
 
 /// Samples at multiples of a power of two, so that they do not move with p, marching both ways from each
@@ -200,11 +222,15 @@ double SoftAxis::flatness(const Site& site) const {
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
     const std::vector<Vec3>& points = curves_[pair].points;
     const double reach = (site.nearest().at.distance + band_ * site.scale) / site.factors[pair];
-    bool near = (site.p - points[0]).squaredNorm() < reach * reach;
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      const bool before = near;
-      near = (site.p - points[k]).squaredNorm() < reach * reach;
-      if (before || near) least = std::min(least, flatness(site, pair, k - 1));
+    for (const Block& block : curves_[pair].blocks) {
+      const double most = (reach + block.radius) * (1.0 + kRoom);
+      if ((site.p - block.centre).squaredNorm() > most * most) continue;
+      bool near = (site.p - points[block.first]).squaredNorm() < reach * reach;
+      for (std::size_t k = block.first + 1; k <= block.last; ++k) {
+        const bool before = near;
+        near = (site.p - points[k]).squaredNorm() < reach * reach;
+        if (before || near) least = std::min(least, flatness(site, pair, k - 1));
+      }
     }
   }
   return least;
@@ -228,8 +254,15 @@ double SoftAxis::cut_margin(const Site& site) const {
     margin = std::min(margin, excess / (apart2 * band_ * std::clamp(round, 1.0, branches)));
   };
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
-    for (std::size_t k = 0; k < curves_[pair].points.size(); ++k)
-      consider(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
+    for (const Block& block : curves_[pair].blocks) {
+      const auto [away, apart] = bounds_of(block, site);
+      const double least = site.factors[pair] * std::max(0.0, away);
+      const double branches_apart2 = apart * std::max(apart, 2.0 * site.scale);
+      if ((least * least) * (1.0 - kRoom) - distance2 >= std::max(0.0, margin) * band_ * branches_apart2)
+        continue;
+      for (std::size_t k = block.first; k <= block.last; ++k)
+        consider(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
+    }
   for (const Candidate& c : site.all.subspan(1)) consider(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
   return margin;
 }
@@ -239,25 +272,41 @@ double SoftAxis::blend_weight(double margin) {
 }
 
 bool SoftAxis::may_be_ambiguous(const Site& site) const {
+  if (site.nearest().at.strength < band_ || flatness(site) < 1.0) return true;
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
+    for (const Block& block : curves_[pair].blocks)
+      if (!is_clear(site, pair, block) && any_ambiguous(site, pair, block)) return true;
+  return false;
+}
+
+/// Whether no sample of a block can be one that any_ambiguous() looks for: none is nearer to p, or farther
+/// from the nearest point, than the bounds.
+bool SoftAxis::is_clear(const Site& site, std::uint32_t pair, const Block& block) const {
+  const double distance = (site.p - site.nearest().at.point).norm(), spacing = curves_[pair].spacing;
+  const Bounds bounds = bounds_of(block, site);
+  const double apart = bounds.apart + spacing;
+  const double away = std::max(distance, site.factors[pair] * (bounds.away - spacing) * (1.0 - kRoom));
+  return (away - distance) * (away + distance) >=
+         band_ * apart * std::max(apart, 2.0 * site.scale) * (1.0 + kRoom);
+}
+
+bool SoftAxis::any_ambiguous(const Site& site, std::uint32_t pair, const Block& block) const {
   const Candidate& nearest = site.nearest();
-  if (nearest.at.strength < band_ || flatness(site) < 1.0) return true;
+  const Curve& curve = curves_[pair];
   const double distance = (site.p - nearest.at.point).norm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
-  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
-    const Curve& curve = curves_[pair];
-    for (std::size_t k = 0; k < curve.points.size(); ++k) {
-      double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - site.p).norm();
-      // Between samples another branch may come nearer; the branch of the nearest point does not.
-      const bool own =
-          pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
-      if (!own) {
-        apart += curve.spacing;
-        away = std::max(distance, site.factors[pair] * (away - curve.spacing));
-      }
-      const double branches = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
-      if (own && !(apart > std::max(1e-3 * distance, kRounding * site.scale))) continue;
-      if ((away - distance) * (away + distance) < band_ * branches * apart * apart) return true;
+  for (std::size_t k = block.first; k <= block.last; ++k) {
+    double apart = (curve.points[k] - nearest.at.point).norm(), away = (curve.points[k] - site.p).norm();
+    // Between samples another branch may come nearer; the branch of the nearest point does not.
+    const bool own =
+        pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
+    if (!own) {
+      apart += curve.spacing;
+      away = std::max(distance, site.factors[pair] * (away - curve.spacing));
     }
+    const double branches = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
+    if (own && !(apart > std::max(1e-3 * distance, kRounding * site.scale))) continue;
+    if ((away - distance) * (away + distance) < band_ * branches * apart * apart) return true;
   }
   return false;
 }

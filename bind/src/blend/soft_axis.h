@@ -67,6 +67,13 @@ class SoftAxis {
   bool may_be_ambiguous(const Site& site) const;
 
  private:
+  /// Samples that follow each other, first and last included, within a ball. Of most, all are too far to
+  /// matter, which one look at the ball tells.
+  struct Block {
+    Vec3 centre;
+    double radius;
+    std::size_t first, last;
+  };
   struct Curve {
     const BSpline* curve;
     double speed;               ///< bound on |c'|
@@ -75,6 +82,7 @@ class SoftAxis {
     std::vector<double> parameters, lengths;
     std::vector<Vec3> points, tangents, curvatures;
     double spacing = 0.0;  ///< largest distance of consecutive samples
+    std::vector<Block> blocks;
 
     double length(double t) const;
   };
@@ -92,6 +100,14 @@ class SoftAxis {
   /// The same between the samples first and first + 1.
   double flatness(const Site& site, std::uint32_t pair, std::size_t first) const;
   std::vector<Sample> samples(const Site& site, std::uint32_t pair) const;
+  static std::vector<Block> blocks_of(const std::vector<Vec3>& points);
+  /// Least distance of a block's samples from p, and most from the nearest point of the site.
+  struct Bounds {
+    double away, apart;
+  };
+  static Bounds bounds_of(const Block& block, const Site& site);
+  bool is_clear(const Site& site, std::uint32_t pair, const Block& block) const;
+  bool any_ambiguous(const Site& site, std::uint32_t pair, const Block& block) const;
   static void raise_behind_maxima(std::span<const double> minima, std::vector<Sample>& along);
   static void distribute(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
 

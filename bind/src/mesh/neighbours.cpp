@@ -21,14 +21,22 @@ std::vector<std::array<std::uint32_t, 2>> edges_of(const PolygonMesh& mesh) {
 Neighbours::Neighbours(const PolygonMesh& mesh) : Neighbours(mesh.points.size(), edges_of(mesh)) {}
 
 Neighbours::Neighbours(std::size_t points, std::vector<std::array<std::uint32_t, 2>> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  begin.assign(points + 1, 0);
-  for (const auto& pair : pairs) {
-    ++begin[pair[0] + 1];
-    to.push_back(pair[1]);
+  // Counted into their places first: a sort of the few of each point is cheaper than one of all.
+  std::vector<std::uint32_t> next(points + 1, 0), all(pairs.size());
+  for (const auto& pair : pairs) ++next[pair[0] + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  begin = next;
+  for (const auto& pair : pairs) all[next[pair[0]]++] = pair[1];
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto first = all.begin() + begin[i], last = all.begin() + begin[i + 1];
+    std::sort(first, last);
+    const auto end = std::unique(first, last);
+    begin[i] = kept;
+    to.insert(to.end(), first, end);
+    kept += static_cast<std::uint32_t>(end - first);
   }
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  begin[points] = kept;
 }
 
 }  // namespace tendril::bind
