@@ -19,6 +19,7 @@ TEST_P(Gallery, HoldsItsNumbers) {
   EXPECT_EQ(figure.id, GetParam().id);
   EXPECT_FALSE(figure.claims.empty());
   EXPECT_FALSE(figure.pictures.empty());
+  EXPECT_NE(figure.left_out, "");
   int held = 0;
   for (const Number& number : figure.numbers) {
     held += number.within.has_value();

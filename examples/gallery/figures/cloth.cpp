@@ -12,6 +12,7 @@
 #include "rivals/mesh_springs.h"
 #include "rivals/spring_force.h"
 #include "shapes/grid.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -297,6 +298,7 @@ Figure cloth_of_49_vertices() {
       "knows nothing but springs; in the library the same springs are a Force on masses without rods' "
       "springs.",
       "The clamp at the rail adds two bending springs to the 32."};
+  say_left_out(rod_cloth(), Parts::mesh, out);
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "figures.h"
 #include "page/chart.h"
 #include "page/sketch.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -172,6 +173,7 @@ Figure stingray_swims() {
                      text("%.0f %% of it at the beat of the force, and the body answers by ", 100 * at_beat) +
                      text("%.1f cm", swing(body)),
                  at_beat > 0.9 && swing(body) > 0.1 ? Verdict::holds : Verdict::partly}};
+  say_left_out(stingray(), Parts::rods, out);
   return out;
 }
 
@@ -251,6 +253,7 @@ Figure ribbon_dance() {
                      text("edges stretch by at most %.2f %%, the free end swings through ", 100 * stretch) +
                      text("%.1f m", highest - lowest),
                  off_hand < 1e-9 && highest - lowest > 0.2 ? Verdict::holds : Verdict::partly}};
+  say_left_out(ribbon(), Parts::rods, out);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "figures.h"
 #include "page/sketch.h"
 #include "rivals/flat_run.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -225,6 +226,7 @@ Figure springs_that_lose_their_shape() {
            text("; %.0f of 200 in space returned to the rest shape", frames.space.returned) +
            text(", %.0f were refused as an edge folded back on its neighbour", frames.space.refused),
        frames.space.distinct.size() == 1 ? Verdict::holds : Verdict::partly}};
+  say_left_out(frame_springs(), Parts::rods, out);
   return out;
 }
 

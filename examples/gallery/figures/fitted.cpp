@@ -10,6 +10,7 @@
 
 #include "figures.h"
 #include "page/sketch.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -22,7 +23,7 @@ Vec3 node(const State& state, std::size_t i) {
 
 /// Masses of a rod of unit length, clamped at one end, whose other end is drawn down by so heavy a load that
 /// it bends through some 80 degrees.
-std::vector<Vec3> bent_rod(int edges) {
+Scene loaded_rod(int edges) {
   std::vector<Vec3> p;
   for (int i = 0; i <= edges; ++i) p.emplace_back(double(i) / edges, 0, 0);
   Scene scene;
@@ -33,11 +34,14 @@ std::vector<Vec3> bent_rod(int edges) {
   const double load = 8 * kYoung * section.bending1;
   scene.forces.push_back(std::make_shared<PointLoad>(
       PointLoad::Kind::force, 0, static_cast<std::size_t>(edges), Vec3(0, 0, -load), Signal::constant(1.0)));
-  const System system(scene);
+  return scene;
+}
+std::vector<Vec3> bent_rod(int edges) {
+  const System system(loaded_rod(edges));
   const Equilibrium found = find_equilibrium(system, system.rest_state());
   if (found.balance != Balance::converged) throw std::runtime_error(found.reason);
   std::vector<Vec3> out;
-  for (std::size_t i = 0; i < p.size(); ++i) out.push_back(node(found.state, i));
+  for (std::size_t i = 0; i < system.node_count(); ++i) out.push_back(node(found.state, i));
   return out;
 }
 
@@ -123,6 +127,7 @@ Figure curve_through_the_masses() {
   out.notes = {
       "Dynamic NURBS have a mass matrix of their own; here only the last step differs, what the masses do to "
       "the curve."};
+  say_left_out(loaded_rod(12), Parts::rods, out);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "figures.h"
 #include "page/sketch.h"
 #include "shapes/ribbed_bar.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -265,6 +266,7 @@ Figure four_frames_of_an_axis() {
        std::abs(s.wanted.net - 90) < 1 && std::abs(helix.wanted.net - 90) < 1 ? Verdict::holds
                                                                               : Verdict::fails}};
   length_preserving(out);
+  say_left_out(Parts::curves, out);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "figures.h"
 #include "page/chart.h"
 #include "page/sketch.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -218,6 +219,7 @@ Figure plant_in_wind() {
            text("%.1f %% and a sibling's tip by ", 100 * both.stem) +
            text("%.1f %%; with one-way joints both stay to 1e-9", 100 * both.sibling),
        both.stem > 1e-3 && one_way.stem < 1e-9 ? Verdict::holds : Verdict::fails}};
+  say_left_out(in_wind(), Parts::rods, out);
   return out;
 }
 

@@ -10,6 +10,7 @@
 
 #include "figures.h"
 #include "page/sketch.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -245,6 +246,7 @@ Figure trumpet_of_four_children() {
        text("one pose of the parent stands for %.0f coordinates", by_hand), Verdict::holds}};
   out.notes = {
       "Between two children the surface follows both, so that the mouth hangs lower there and is not round."};
+  say_left_out(scene_of(true, kMinimised, true), Parts::mesh, out);
   return out;
 }
 

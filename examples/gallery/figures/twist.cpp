@@ -12,6 +12,7 @@
 #include "page/sketch.h"
 #include "rivals/lattice.h"
 #include "shapes/ribbed_bar.h"
+#include "spared.h"
 
 namespace tendril::gallery {
 namespace {
@@ -290,6 +291,7 @@ Figure twist_of_a_bar() {
            : Verdict::holds,
        "the twist of an edge is unwrapped as it grows, so that the limit is gone"}};
   out.notes = {"Share of the turn found in the bar: the angles between neighbouring sections, added up."};
+  say_left_out(rod_scene(object, std::numbers::pi / 2), Parts::mesh, out);
   return out;
 }
 

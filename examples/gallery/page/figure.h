@@ -41,6 +41,7 @@ struct Figure {
   std::vector<Claim> claims = {};
   std::vector<Number> numbers = {};
   std::vector<std::string> notes = {};
+  std::string left_out = {};  ///< of the scene and the program, and what that saved
 
   /// The number of that name; throws std::out_of_range.
   double number(const std::string& name) const;

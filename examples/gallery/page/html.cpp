@@ -63,6 +63,7 @@ std::string section(const Figure& figure) {
   out += "</div>\n<table><tr><th>number</th><th>measured</th><th>held by the test to</th></tr>\n";
   for (const Number& number : figure.numbers) out += number_row(number);
   out += "</table>\n";
+  if (!figure.left_out.empty()) out += element("p", escaped(figure.left_out)) + "\n";
   for (const std::string& note : figure.notes) out += element("p", escaped(note)) + "\n";
   return out;
 }

@@ -30,6 +30,7 @@ std::string to_json(const std::vector<Figure>& figures) {
                                {"because", claim.because}});
     one["numbers"] = Json::array();
     for (const Number& number : figure.numbers) one["numbers"].push_back(of(number));
+    one["left_out"] = figure.left_out;
     out.push_back(one);
   }
   return out.dump(1) + "\n";
