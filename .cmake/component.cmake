@@ -1,7 +1,8 @@
 # tendril_component(NAME name SOURCES ... HEADERS ... LINK_PUBLIC ... LINK_PRIVATE ... LINK_INTERFACE ...)
 # Folder = target = install component = export set. Headers live under <folder>/include and are listed by name, so
 # that the path in the tree and the installed path cannot disagree. Static or shared as BUILD_SHARED_LIBS says; both are
-# built with hidden symbols, and tendril/base/export.h marks what a shared one shows.
+# built with hidden symbols, and tendril/base/export.h marks what a shared one shows. Where TENDRIL_UNITY is on, the
+# sources of a room (a folder) are compiled as one.
 include(GNUInstallDirs)
 include(CheckLinkerFlag)
 
@@ -31,6 +32,12 @@ function(tendril_component)
     EXPORT_NAME ${ARG_NAME} POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
+  foreach(source IN LISTS ARG_SOURCES)
+    cmake_path(GET source PARENT_PATH room)
+    string(MAKE_C_IDENTIFIER "${room}" room)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TENDRIL_UNITY} UNITY_BUILD_MODE GROUP)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
   target_link_libraries(${target} PUBLIC ${ARG_LINK_PUBLIC} PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:tendril_warnings>

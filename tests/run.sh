@@ -28,8 +28,12 @@ bash .cmake/cgal-meshes.sh build/cgal-meshes
 bash .cmake/npm.sh tests/runner/films build/npm
 export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
 options=(-DTENDRIL_TESTS=ON)
-# One job compiles the benches too, so that they keep up with the library.
-if [ "$preset" = release ]; then options+=(-DTENDRIL_BENCH=ON); fi
+# One job compiles the benches too, so that they keep up with the library; from nothing it does so the fast way, and a
+# folder that a person works in stays as it is.
+if [ "$preset" = release ]; then
+  options+=(-DTENDRIL_BENCH=ON)
+  if [ ! -e build/CMakeCache.txt ]; then options+=(-DTENDRIL_UNITY=ON); fi
+fi
 cmake --preset "$preset" -Wno-dev "${options[@]}"
 cmake --build --preset "$preset" "${targets[@]}"
 ctest --preset "$preset" --label-regex "$labels" --parallel "$(nproc)" --no-tests=error </dev/null

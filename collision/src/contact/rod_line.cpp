@@ -10,14 +10,13 @@ namespace tendril::contact {
 namespace {
 
 constexpr double kMostPoints = 1e7;  // of all rods
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::string place_of_rod(std::size_t i) {
   return "contact.rods[" + std::to_string(i) + "]";
 }
 
 void check_rod(const ContactRod& rod, std::size_t i) {
-  if (!(rod.radius > 0.0 && rod.radius < kInfinite))
+  if (!(rod.radius > 0.0 && std::isfinite(rod.radius)))
     throw InvalidInput(place_of_rod(i) + ".radius", std::to_string(rod.radius), "a positive length");
   if (rod.rest.size() < 2)
     throw InvalidInput(place_of_rod(i) + ".rest", std::to_string(rod.rest.size()) + " points", "at least 2");

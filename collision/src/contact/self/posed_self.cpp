@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "contact/surfaces/surface_points.h"
 
 namespace tendril::contact {
-namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
     : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {

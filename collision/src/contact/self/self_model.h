@@ -3,12 +3,15 @@
 #include <tendril/contact/surface_self_contact.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "contact/response.h"
 #include "self_mesh.h"
 
 namespace tendril::contact {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// A vertex and a face, or two edges, that may come near each other.
 struct SelfPair {

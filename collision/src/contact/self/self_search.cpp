@@ -1,6 +1,5 @@
 #include <tendril/collision/box_tree.h>
 
-#include <limits>
 #include <utility>
 
 #include "contact/foot.h"
@@ -10,8 +9,6 @@ namespace tendril::contact {
 namespace {
 
 using collision::Box;
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 Box widened(Box box, double by) {
   return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};

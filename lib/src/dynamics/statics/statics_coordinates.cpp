@@ -16,10 +16,6 @@ constexpr double kMostTwist = 1.0;    // of a node against the next in one step 
 
 constexpr double kStiff = 1e-12;  // how much edges stretch to close what turns can close
 
-Vec3 at(const Eigen::VectorXd& y, std::size_t node) {
-  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
-}
-
 /// The edge d, moved by m at its far end: turned by the part across it, stretched by the part along it.
 Vec3 turned(const Vec3& d, const Vec3& m) {
   const double length = d.norm();

@@ -6,6 +6,11 @@
 
 namespace tendril {
 
+/// A node's three of the positions y.
+inline Vec3 at(const Eigen::VectorXd& y, std::size_t node) {
+  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
+}
+
 /// The free coordinates of a system at rest, node by node (p, then the turn about the tangent), children
 /// before their parents and each rod from its tip to its root: elimination in this order makes no fill on
 /// chains and trees.

@@ -8,10 +8,6 @@
 namespace tendril {
 namespace {
 
-Vec3 at(const Eigen::VectorXd& y, std::size_t node) {
-  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
-}
-
 Vec3 across(const Vec3& n, const Vec3& v) {
   return v - n.dot(v) * n;
 }

@@ -8,10 +8,6 @@
 namespace tendril {
 namespace {
 
-Mat3 projector(const Vec3& n) {
-  return Mat3::Identity() - n * n.transpose();
-}
-
 /// (1 - a a^T) m (1 - b b^T)
 Mat3 project(const Vec3& a, const Mat3& m, const Vec3& b) {
   const Mat3 left = m - a * (a.transpose() * m);

@@ -7,6 +7,11 @@
 
 namespace tendril {
 
+/// Projects on the plane across a unit vector.
+inline Mat3 projector(const Vec3& n) {
+  return Mat3::Identity() - n * n.transpose();
+}
+
 /// Second derivatives of the elastic energy by what the springs of one edge see: the positions of up to five
 /// nodes and the angles of two. Positions attached to another node stand under the node that carries them.
 struct EdgeStiffness {

@@ -5,13 +5,10 @@
 
 #include "dynamics/rhs/held.h"
 #include "dynamics/vector/lanes.h"
+#include "edge_stiffness.h"
 
 namespace tendril {
 namespace {
-
-Mat3 projector(const Vec3& n) {
-  return Mat3::Identity() - n * n.transpose();
-}
 
 /// Adds W(x, y, z) of the components e.l, e.m and e.t at node `side`, by its gradient and Hessian:
 /// J W'' J^T and what the components' own second derivatives add. By e alone they have none. The frame
