@@ -53,12 +53,12 @@ if [ "$check" ]; then
 fi
 
 . .cmake/packages.sh
-need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${scene_packages[@]}"
+need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" "${runner_packages[@]}" "${npm_packages[@]}"
 rm -rf "$copy"
 mkdir -p "$copy"
 # With the present time: what an earlier run has built is older, and built again.
 git ls-files -z | xargs -0 tar c | tar xm -C "$copy"
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_EXAMPLES=OFF -DTENDRIL_TESTS=ON \
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTENDRIL_EXAMPLES=ON -DTENDRIL_TESTS=ON \
   -Wno-dev >/dev/null
 
 make_tests() { cmake --build "$build" --target "$@" >build/mutants/build.log 2>&1; }

@@ -58,6 +58,8 @@ TEST(PlayerInChromium, VerticesInThePageAreTheLibrarysAndItPlays) {
   EXPECT_EQ(last["clicked"], 6);
   EXPECT_TRUE(last["home"]);
   EXPECT_EQ(last["switches"], Json({"mesh", "curve-pairs", "frames", "tubes", "ambiguous"}));
+  EXPECT_LT(last["narrow"]["covered"], last["narrow"]["mesh"]);
+  EXPECT_EQ(last["refusal"], "This page needs a browser of 2023 or later.");
   for (const std::string look : {"_all.png", "_light.png", "_dark.png"})
     EXPECT_GT(std::filesystem::file_size(folder / ("blended" + look)), 20000u) << look;
 }

@@ -13,7 +13,7 @@ const {chromium} = require(`${modules}/playwright-core`);
 async function measure(moment) {
   const {stage: {mesh, renderer}, view: {camera}, film, show} = await window.tendril, gl = renderer.getContext();
   const points = new Float32Array(4 * film.arrays.points.length / 3).fill(NaN), size = 32 * mesh.of.length;
-  let astray = 0;
+  let astray = 0, top = -1;
   const set = {
     [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv, [gl.FLOAT_VEC4]: gl.uniform4fv,
     [gl.INT]: gl.uniform1i, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D]: gl.uniform1i,
@@ -59,6 +59,7 @@ async function measure(moment) {
     mesh.of.forEach((point, k) => {
       const [x, y, z, shares, ...drawnAt] = values.subarray(8 * k, 8 * k + 8);
       points.set([x, y, z, shares], 4 * point);
+      top = Math.max(top, drawnAt[1] / drawnAt[3]);
       drawnAt.forEach((at, r) => { astray = Math.max(astray, Math.abs(at - (m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r]))); });
     });
     gl.deleteBuffer(buffer);
@@ -67,7 +68,7 @@ async function measure(moment) {
   };
   show(moment);
   delete mesh.onAfterRender;
-  return {points: Array.from(points), astray};
+  return {points: Array.from(points), astray, top};
 }
 
 async function see(browser, file) {
@@ -136,6 +137,25 @@ async function touch(page) {
           keyed: [between(near, keyed), keyed.distance / near.distance], clicked: moment, home: home.distance === first.distance && home.yaw === first.yaw};
 }
 
+// On a telephone: where what is above the picture ends, and where the mesh begins, from the screen's upper edge.
+async function narrow(page) {
+  const height = 780;
+  await page.setViewportSize({width: 390, height});
+  await page.waitForFunction('document.getElementById("view").width === Math.round(390 * Math.min(2, window.devicePixelRatio))');
+  const {top} = await page.evaluate(measure, 0), {y, height: covered} = await page.locator('#top').boundingBox();
+  return {covered: y + covered, mesh: 0.5 * (1 - top) * height};
+}
+
+// In a browser without what the page needs: what it says instead of a picture.
+async function refusal(browser, file) {
+  const page = await browser.newPage();
+  await page.addInitScript('delete window.DecompressionStream');
+  await page.goto(`file://${file}`);
+  const text = await page.locator('#fault').textContent();
+  await page.close();
+  return text;
+}
+
 async function picture(page, name, last) {
   await page.evaluate(async k => (await window.tendril).show(k), Math.floor(last / 2));
   const inputs = await page.locator('#switches input').all();
@@ -155,7 +175,8 @@ async function picture(page, name, last) {
   const seen = [];
   for (const [k, file] of pages.entries()) {
     const {page, seen: one} = await see(browser, path.resolve(file));
-    if (k === pages.length - 1) Object.assign(one, await play(page), await touch(page), {switches: await picture(page, one.name, one.last)});
+    if (k === pages.length - 1) Object.assign(one, await play(page), await touch(page), {switches: await picture(page, one.name, one.last)},
+                                                 {narrow: await narrow(page), refusal: await refusal(browser, path.resolve(file))});
     await page.close();
     seen.push(one);
   }
