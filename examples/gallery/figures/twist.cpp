@@ -226,6 +226,18 @@ std::string percent(double part) {
   return text("%.1f %%", 100 * part);
 }
 
+void add_pictures(const Object& object, const Row& row, Figure& out) {
+  const std::string at = text(", %.0f degrees", row.degrees);
+  const auto add = [&](std::string svg, const Twisted& twisted) {
+    out.pictures.push_back({std::move(svg), "volume kept: " + percent(twisted.volume_kept)});
+  };
+  if (row.degrees < 200) add(drawn(object, row.single, "one lattice" + at, "#d55e00"), row.single);
+  const Lattice four = lattice_of(object, kLayers);
+  add(drawn(object, row.four.result, "four cells with springs" + at, "#d55e00", &four, &row.four.lattice),
+      row.four.result);
+  add(drawn(object, row.pair, "curve-pair" + at, "#56b4e9"), row.pair);
+}
+
 }  // namespace
 
 Figure twist_of_a_bar() {
@@ -242,18 +254,7 @@ Figure twist_of_a_bar() {
   for (const double degrees : {90.0, 180.0, 360.0, 1080.0}) rows.push_back(row_of(object, degrees));
   for (const Row& row : rows) {
     add_numbers(row, out);
-    const std::string at = text(", %.0f degrees", row.degrees);
-    if (row.degrees > 400) continue;
-    if (row.degrees < 200) {
-      out.pictures.push_back({drawn(object, row.single, "one lattice" + at, "#d55e00"),
-                              "volume kept: " + percent(row.single.volume_kept)});
-    }
-    const Lattice four = lattice_of(object, kLayers);
-    out.pictures.push_back(
-        {drawn(object, row.four.result, "four cells with springs" + at, "#d55e00", &four, &row.four.lattice),
-         "volume kept: " + percent(row.four.result.volume_kept)});
-    out.pictures.push_back({drawn(object, row.pair, "curve-pair" + at, "#56b4e9"),
-                            "volume kept: " + percent(row.pair.volume_kept)});
+    if (row.degrees < 400) add_pictures(object, row, out);
   }
   const Row &quarter = rows[0], &half = rows[1], &full = rows[2], &thrice = rows[3];
   out.numbers.push_back(
