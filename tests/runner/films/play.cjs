@@ -9,11 +9,11 @@ const {chromium} = require(`${modules}/playwright-core`);
 
 // In the page: where the shader that draws has the mesh's vertices at a moment. While three.js draws, the same source is
 // linked anew for transform feedback, and gets the same attributes, uniforms and textures. Where a vertex is drawn must be
-// what the camera makes of where it is.
+// what the camera makes of where it is; and its shadow lies on the ground.
 async function measure(moment) {
-  const {stage: {mesh, renderer}, view: {camera}, film, show} = await window.tendril, gl = renderer.getContext();
+  const {stage: {mesh, renderer, shadows}, view: {camera}, film, show} = await window.tendril, gl = renderer.getContext();
   const points = new Float32Array(4 * film.arrays.points.length / 3).fill(NaN), size = 32 * mesh.of.length;
-  let astray = 0, top = -1;
+  let astray = 0, top = -1, aloft = 0;
   const set = {
     [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv, [gl.FLOAT_VEC4]: gl.uniform4fv,
     [gl.INT]: gl.uniform1i, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D]: gl.uniform1i,
@@ -56,9 +56,12 @@ async function measure(moment) {
     gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, values);
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
     const {elements: m} = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse);
+    const {elements: s} = shadows.find(({owner}) => owner === 'mesh').shadow.matrix, {up, ground} = film.view;
     mesh.of.forEach((point, k) => {
       const [x, y, z, shares, ...drawnAt] = values.subarray(8 * k, 8 * k + 8);
       points.set([x, y, z, shares], 4 * point);
+      const [fx, fy, fz, fw] = [0, 1, 2, 3].map(r => s[r] * x + s[4 + r] * y + s[8 + r] * z + s[12 + r]);
+      aloft = Math.max(aloft, Math.abs((up[0] * fx + up[1] * fy + up[2] * fz) / fw - ground));
       top = Math.max(top, drawnAt[1] / drawnAt[3]);
       drawnAt.forEach((at, r) => { astray = Math.max(astray, Math.abs(at - (m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r]))); });
     });
@@ -68,7 +71,7 @@ async function measure(moment) {
   };
   show(moment);
   delete mesh.onAfterRender;
-  return {points: Array.from(points), astray, top};
+  return {points: Array.from(points), astray, top, aloft};
 }
 
 async function see(browser, file) {
@@ -81,8 +84,9 @@ async function see(browser, file) {
   const last = await page.evaluate(async () => (await window.tendril).last);
   const moments = [...new Set([0, Math.floor(last / 2), last])], times = [];
   for (const moment of moments) {
-    const {points, astray} = await page.evaluate(measure, moment);
+    const {points, astray, aloft} = await page.evaluate(measure, moment);
     if (!(astray < 1e-4)) faults.push(`drawn ${astray} of the picture from where it is`);
+    if (!(aloft < 2e-3)) faults.push(`a shadow ${aloft} of the size from the ground`);
     fs.writeFileSync(`${out}/${name}_${moment}.f32`, Buffer.from(Float32Array.from(points).buffer));
     times.push(Number(await page.textContent('#time')));
   }
