@@ -12,7 +12,7 @@ const {chromium} = require(`${modules}/playwright-core`);
 // what the camera makes of where it is; and its shadow lies on the ground.
 async function measure(moment) {
   const {stage: {mesh, renderer, shadows}, view: {camera}, film, show} = await window.tendril, gl = renderer.getContext();
-  const points = new Float32Array(4 * film.arrays.points.length / 3).fill(NaN), size = 32 * mesh.of.length;
+  const points = new Float32Array(4 * film.arrays.points.length / 3).fill(NaN), size = 32 * mesh.geometry.attributes.point.count;
   let astray = 0, top = -1, aloft = 0;
   const set = {
     [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv, [gl.FLOAT_VEC4]: gl.uniform4fv,
@@ -50,14 +50,14 @@ async function measure(moment) {
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
     gl.enable(gl.RASTERIZER_DISCARD);
     gl.beginTransformFeedback(gl.POINTS);
-    gl.drawArrays(gl.POINTS, 0, mesh.of.length);
+    gl.drawArrays(gl.POINTS, 0, mesh.geometry.attributes.point.count);
     gl.endTransformFeedback();
     gl.disable(gl.RASTERIZER_DISCARD);
     gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, values);
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
     const {elements: m} = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse);
     const {elements: s} = shadows.find(({owner}) => owner === 'mesh').shadow.matrix, {up, ground} = film.view;
-    mesh.of.forEach((point, k) => {
+    mesh.geometry.attributes.point.array.forEach((point, k) => {
       const [x, y, z, shares, ...drawnAt] = values.subarray(8 * k, 8 * k + 8);
       points.set([x, y, z, shares], 4 * point);
       const [fx, fy, fz, fw] = [0, 1, 2, 3].map(r => s[r] * x + s[4 + r] * y + s[8 + r] * z + s[12 + r]);

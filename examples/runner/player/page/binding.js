@@ -1,20 +1,24 @@
-// The mesh on the curve-pairs, evaluated on the graphics card: a point is its place in the nearest share's frame, plus
-// the weighted differences of its other shares' places to that. Lengths are over the mesh's size, about its middle.
+// Points on the curve-pairs, evaluated in a vertex shader: a point is its place in the nearest share's frame, plus the
+// weighted differences of its other shares' places to that. Lengths are over the mesh's size, about its middle.
 
-import {BufferAttribute, Color, DataTexture, FloatType, Matrix4, Mesh, Quaternion, RGBAFormat, SRGBColorSpace, Vector3} from 'three';
-import {mergeVertices} from 'three/addons/utils/BufferGeometryUtils.js';
-import {creased, lit} from './shape.js';
+import {
+  BufferAttribute, BufferGeometry, Camera, DataTexture, FloatType, GLSL3, Matrix4, NearestFilter, NoBlending, Points, Quaternion, RawShaderMaterial,
+  RGBAFormat, Vector2, Vector3, WebGLRenderTarget,
+} from 'three';
 
-// Stands before the shader that three.js makes of a material.
-const bindingShader = degree => `
+const vertexShader = degree => `
+precision highp float;
+precision highp int;
+precision highp sampler2D;
 uniform sampler2D spans;   // a row a span: curve (w: turn), derivative, offset, in Bernstein form
 uniform sampler2D shares;  // three texels a share: (s, u, v, w), (weight, span), rest frame
 uniform int sharesWidth;
-uniform float marked;      // how far points of several shares are colored
+uniform ivec2 size;        // of what is drawn into, a texel a point
 in uint first;
 in uint count;
-out vec4 bound;            // w: how many shares
-vec4 turned;               // quaternion, since rest
+in vec3 position;          // at rest
+flat out vec4 bound;       // w: how many shares
+flat out vec4 turned;      // quaternion, since rest
 const int P = ${degree};
 
 vec4 share(int index) {
@@ -60,8 +64,8 @@ void place(int index, out vec3 point, out vec4 frame, out float weight) {
   frame = times(quaternion(x, y, z), share(3 * index + 2));
   weight = more.x;
 }
-void bind(vec3 rest) {
-  bound = vec4(rest, float(count));
+void bind() {
+  bound = vec4(position, float(count));
   turned = vec4(0.0, 0.0, 0.0, 1.0);
   if (count == 0u) return;
   vec3 base, other;
@@ -78,56 +82,56 @@ void bind(vec3 rest) {
   bound.xyz = base + more;
   turned = normalize(sum);
 }
-`;
+void main() {
+  bind();
+  vec2 texel = vec2(gl_VertexID % size.x, gl_VertexID / size.x) + 0.5;
+  gl_Position = vec4(2.0 * texel / vec2(size) - 1.0, 0.0, 1.0);
+  gl_PointSize = 1.0;
+}`;
 
-// What the shader of a material does instead, or besides, at its parts.
-const kBound = [
-  ['#include <uv_vertex>', 'bind(position);'],
-  ['#include <color_vertex>', '#include <color_vertex>\n#ifdef USE_COLOR\nif (bound.w > 1.5) vColor.rgb = mix(vColor.rgb, vec3(0.75, 0.12, 0.05), marked);\n#endif'],
-  ['#include <beginnormal_vertex>', 'vec3 objectNormal = normal + 2.0 * cross(turned.xyz, cross(turned.xyz, normal) + turned.w * normal);'],
-  ['#include <begin_vertex>', 'vec3 transformed = bound.xyz;'],
-];
+const kFragmentShader = `
+precision highp float;
+flat in vec4 bound, turned;
+layout(location = 0) out vec4 place;
+layout(location = 1) out vec4 turn;
+void main() {
+  place = bound;
+  turn = turned;
+}`;
 
 function texture(values, width) {
   return Object.assign(new DataTexture(values, width, values.length / (4 * width), RGBAFormat, FloatType), {needsUpdate: true});
 }
 
-export class BoundMesh extends Mesh {
-  constructor(film, spans) {
-    const {triangles, colors, points} = film.arrays, rest = Float64Array.from(points, x => x * film.pointUnit);
-    const flat = creased(points, triangles, film.pointUnit, [['point', Uint32Array.from({length: rest.length / 3}, (_, i) => i)]]);
-    const paint = new Color(), paints = new BufferAttribute(new Float32Array(3 * triangles.length), 3);
-    triangles.forEach((i, k) => {
-      const packed = colors.length === 0 ? 0x92a1b0 : colors[film.colorsOfFaces ? Math.floor(k / 3) : i];
-      paint.setRGB((packed & 255) / 255, (packed >> 8 & 255) / 255, (packed >> 16 & 255) / 255, SRGBColorSpace);
-      paints.setXYZ(k, paint.r, paint.g, paint.b);
-    });
-    flat.setAttribute('color', paints);
-    super(mergeVertices(flat), lit({vertexColors: true}));
-    this.frustumCulled = false;
+export class Binding {
+  // rest: of the points, three numbers each
+  constructor(film, spans, rest) {
     this.spans = spans;
-    // Of each vertex that is drawn, the mesh's vertex.
-    this.of = this.geometry.attributes.point.array;
-    this.geometry.deleteAttribute('point');
-    const {first, counts, shares} = this.readShares(film, rest);
-    for (const [name, values] of [['first', first], ['count', counts]])
-      this.geometry.setAttribute(name, new BufferAttribute(Uint32Array.from(this.of, i => values[i]), 1));
+    const {first, counts, shares} = this.readShares(film, rest), count = rest.length / 3;
     this.posed = texture(new Float32Array(spans.values.length), spans.row);
-    this.marked = {value: 0};
-    this.uniforms = {spans: {value: this.posed}, shares: {value: texture(shares, kSharesWidth)}, sharesWidth: {value: kSharesWidth}, marked: this.marked};
-    this.bind(this.material);
+    const size = new Vector2(Math.min(kWidth, count), Math.ceil(count / kWidth));
+    // Where each point is, and how it is turned: drawn once a pose, read by all that show the mesh.
+    this.target = new WebGLRenderTarget(size.x, size.y, {
+      count: 2, type: FloatType, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer: false});
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(Float32Array.from(rest), 3));
+    geometry.setAttribute('first', new BufferAttribute(first, 1));
+    geometry.setAttribute('count', new BufferAttribute(counts, 1));
+    this.points = new Points(geometry, new RawShaderMaterial({
+      glslVersion: GLSL3, vertexShader: vertexShader(spans.degree), fragmentShader: kFragmentShader,
+      uniforms: {
+        spans: {value: this.posed}, shares: {value: texture(shares, kSharesWidth)}, sharesWidth: {value: kSharesWidth}, size: {value: size}},
+      blending: NoBlending, depthTest: false, depthWrite: false}));
+    this.points.frustumCulled = false;
   }
 
-  // To the curve-pairs goes what is drawn with this material: the mesh, its shadow.
-  bind(material) {
-    material.onBeforeCompile = shader => {
-      Object.assign(shader.uniforms, this.uniforms);
-      for (const [part, ours] of kBound) {
-        if (!shader.vertexShader.includes(part)) throw new Error(`no ${part} in the shader of ${material.type}`);
-        shader.vertexShader = shader.vertexShader.replace(part, ours);
-      }
-      shader.vertexShader = bindingShader(this.spans.degree) + shader.vertexShader;
-    };
+  // To the curve-pairs as they are posed.
+  evaluate(renderer) {
+    this.posed.image.data.set(this.spans.values);
+    this.posed.needsUpdate = true;
+    renderer.setRenderTarget(this.target);
+    renderer.render(this.points, new Camera());
+    renderer.setRenderTarget(null);
   }
 
   // Records from places: the coordinates are those that give the rest position, to double precision.
@@ -166,12 +170,6 @@ export class BoundMesh extends Mesh {
     }
     return {first, counts, shares};
   }
-
-  // To the curve-pairs as they are posed.
-  update() {
-    this.posed.image.data.set(this.spans.values);
-    this.posed.needsUpdate = true;
-  }
 }
 
-const kSharesWidth = 3 * 512;
+const kWidth = 1024, kSharesWidth = 3 * 512;

@@ -3,9 +3,9 @@
 
 import {Color, DirectionalLight, Group, HemisphereLight, Mesh, Plane, Quaternion, Scene, Vector2, Vector3, Vector4, WebGLRenderer} from 'three';
 import {ShadowMesh} from 'three/addons/objects/ShadowMesh.js';
-import {BoundMesh} from './binding.js';
 import {Spans} from './curves.js';
 import {color, Dots, Strokes} from './lines.js';
+import {BoundMesh} from './mesh.js';
 import {creased, lit, Tube} from './shape.js';
 
 const kPalette = [[0.10, 0.45, 0.82], [0.85, 0.37, 0.05], [0.20, 0.60, 0.25], [0.62, 0.25, 0.68], [0.75, 0.15, 0.20],
@@ -16,10 +16,10 @@ const kLongest = 0.03;  // of what is drawn of a frame
 
 function renderer(canvas) {
   try {
-    return new WebGLRenderer({canvas, antialias: true, alpha: true, stencil: true});
-  } catch {
-    throw new Error('This page needs WebGL 2, which the browser does not offer.');
-  }
+    const made = new WebGLRenderer({canvas, antialias: true, alpha: true, stencil: true});
+    if (made.extensions.has('EXT_color_buffer_float')) return made;
+  } catch {}  // three.js has said why
+  throw new Error('This page needs WebGL 2 that draws numbers of 32 bits, which the browser does not offer.');
 }
 
 export class Stage {
@@ -121,7 +121,7 @@ export class Stage {
     if (part > 0) for (let i = 0; i < a.length; ++i) this.control[i] = (1 - part) * a[i] + part * b[i];
     else this.control.set(a);
     this.spans.pose(this.control);
-    if (this.mesh) this.mesh.update();
+    if (this.mesh) this.mesh.binding.evaluate(this.renderer);
     this.moveSolids(k, part);
     this.moment = moment;
     this.stale = new Set(['tubes', 'pairs', 'frames', 'contacts']);

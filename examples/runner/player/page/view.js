@@ -33,7 +33,7 @@ export class View {
 
   // To a picture of which parts of the height, above and below, are covered.
   fit(width, height, {above, below}) {
-    const narrow = Math.min(1 - above - below, width / height);
+    const narrow = Math.min(1 - above - below, 0.9 * width / height);
     this.camera.fov = MathUtils.radToDeg(2 * Math.atan(Math.tan(kAngle / 2) / narrow));
     this.camera.near = 0.02 * this.distance;
     this.camera.far = this.distance + 20;
