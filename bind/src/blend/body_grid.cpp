@@ -164,6 +164,18 @@ void BodyGrid::enter_faces(const PolygonMesh& mesh) {
     if (!used[i]) enter(faces + i, {i, i, i});
   }
   first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
+  sort_entries();
+}
+
+/// A large face meets many voxels: each is to be found without a look at all.
+void BodyGrid::sort_entries() {
+  by_voxel_.resize(entries_.size());
+  std::iota(by_voxel_.begin(), by_voxel_.end(), 0U);
+  for (std::size_t face = 0; face + 1 < first_entry_.size(); ++face)
+    std::sort(by_voxel_.begin() + first_entry_[face], by_voxel_.begin() + first_entry_[face + 1],
+              [&](std::uint32_t a, std::uint32_t b) {
+                return std::pair(entries_[a].cell, a) < std::pair(entries_[b].cell, b);
+              });
 }
 
 /// In each voxel, triangles that share an edge or a corner that is there are one piece. What they share
@@ -339,40 +351,6 @@ void BodyGrid::number_nodes() {
     if (area[i] > 0.0) nodes_[i] = origin_ + h_ * Vec3(sum[i] / area[i]);
   neighbours_ = Neighbours(nodes_.size(), std::move(pairs));
   joined_ = {};
-}
-
-/// By the face and not by p alone: of several sheets in a voxel only the face says which. A point on the
-/// border of voxels may be rounded into one that its face was not entered in; then the nearest of the
-/// face's is taken.
-GridPlace BodyGrid::place(const Vec3& p, std::uint32_t face) const {
-  const Vec3 at = scaled(p);
-  const std::uint32_t here = index(cell_of(at));
-  const Entry* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = first_entry_[face]; i < first_entry_[face + 1] && least > 0.0; ++i) {
-    const Cell c = cell_at(entries_[i].cell);
-    const Vec3 low(c[0], c[1], c[2]);
-    const double away =
-        entries_[i].cell == here ? 0.0 : 1e-12 + (at - at.cwiseMax(low).cwiseMin(low + Vec3::Ones())).norm();
-    if (away < least) least = away, best = &entries_[i];
-  }
-  const Cell c = cell_at(best->cell);
-  GridPlace out{piece_nodes_[best->piece], {}};
-  const Vec3 part = (at - Vec3(c[0], c[1], c[2])).cwiseMax(0.0).cwiseMin(1.0);
-  for (int k = 0; k < 8; ++k)
-    out.weight[static_cast<std::size_t>(k)] = (k & 1 ? part.x() : 1.0 - part.x()) *
-                                              (k & 2 ? part.y() : 1.0 - part.y()) *
-                                              (k & 4 ? part.z() : 1.0 - part.z());
-  return out;
-}
-
-std::vector<std::uint32_t> BodyGrid::faces_of_points(const PolygonMesh& mesh) const {
-  const auto faces = static_cast<std::uint32_t>(mesh.face_count());
-  std::vector<std::uint32_t> out(mesh.points.size());
-  std::iota(out.begin(), out.end(), faces);
-  for (std::uint32_t f = faces; f-- > 0;)
-    for (const std::uint32_t i : mesh.face(f)) out[i] = f;
-  return out;
 }
 
 }  // namespace tendril::bind

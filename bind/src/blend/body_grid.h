@@ -87,6 +87,9 @@ class BodyGrid {
   Cell cell_of(const Vec3& p) const;  ///< clamped to the grid
   void rasterise(const std::array<Vec3, 3>& triangle, const Cell& low, const Cell& high, const Entry& entry);
   void enter_faces(const PolygonMesh& mesh);
+  void sort_entries();
+  const Entry* entry_in(std::uint32_t face, std::uint32_t cell) const;
+  const Entry* nearest_entry(std::uint32_t face, const Vec3& scaled) const;
   void split_into_pieces(const PolygonMesh& mesh);
   void find_centres(const PolygonMesh& mesh);
   void join_pieces();
@@ -108,8 +111,9 @@ class BodyGrid {
   Cell count_;
   std::vector<std::uint8_t> state_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< corners, points at one place as one
-  std::vector<Entry> entries_;                           ///< by face, then voxel
+  std::vector<Entry> entries_;                           ///< by face, then triangle
   std::vector<std::uint32_t> first_entry_;               ///< of each face
+  std::vector<std::uint32_t> by_voxel_;                  ///< entries, by face, then voxel
   std::vector<std::uint32_t> piece_cell_;                ///< of each piece, ascending
   std::vector<std::uint32_t> first_piece_;               ///< of each voxel
   std::vector<Vec3> piece_centre_, piece_normal_;        ///< scaled; unit

@@ -87,19 +87,24 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
       for (int k = 1; k <= kSamplesPerSpan; ++k)
         sample(k == kSamplesPerSpan ? piece.end
                                     : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
-    one.blocks = blocks_of(one.points);
+    one.blocks = blocks_of(one);
     curves_.push_back(std::move(one));
   }
 }
 
 /// Neighbouring blocks have a sample in common, so that each pair of consecutive ones is in a block.
-std::vector<SoftAxis::Block> SoftAxis::blocks_of(const std::vector<Vec3>& points) {
+std::vector<SoftAxis::Block> SoftAxis::blocks_of(const Curve& curve) {
+  const std::vector<Vec3>& points = curve.points;
   std::vector<Block> out;
   for (std::size_t first = 0; first + 1 < points.size(); first += kBlock) {
     const std::size_t last = std::min(first + kBlock, points.size() - 1);
-    Block block{0.5 * (points[first] + points[last]), 0.0, first, last};
-    for (std::size_t k = first; k <= last; ++k)
+    const Vec3& along = curve.tangents[(first + last) / 2];
+    Block block{0.5 * (points[first] + points[last]), 0.0, first, last, along, 0.0, 0.0};
+    for (std::size_t k = first; k <= last; ++k) {
       block.radius = std::max(block.radius, (points[k] - block.centre).norm());
+      block.spread = std::max(block.spread, (curve.tangents[k] - along).norm());
+      block.curvature = std::max(block.curvature, curve.curvatures[k].norm());
+    }
     block.radius *= 1.0 + kRoom;
     out.push_back(block);
   }
@@ -217,6 +222,19 @@ double SoftAxis::flatness(const Site& site, std::uint32_t pair, std::size_t firs
   return excess / (band_ * site.scale) + (lambda + cosine) / band_;
 }
 
+/// A tangent t and the way w to p of a sample have |t . w| >= |t0 . w0| - |t - t0| |w0| - |w - w0|, which is
+/// the cosine times |w|, and where that is above 0 the cosine changes no sign.
+double SoftAxis::least_flatness(const Site& site, std::uint32_t pair, const Block& block) const {
+  const Vec3 way = site.p - block.centre;
+  const double length = way.norm(), most = (length + block.radius) * (1.0 + kRoom);
+  const double along = std::abs(block.tangent.dot(way)) - (block.spread + kRoom) * length - block.radius;
+  const double cosine = along > 0.0 ? along / most : 0.0,
+               lambda = std::max(0.0, 1.0 - block.curvature * most);
+  const double away = site.factors[pair] * (length - block.radius - kRoom * length);
+  const double excess = std::max(0.0, away - site.nearest().at.distance);
+  return (excess / (band_ * site.scale) + (lambda + cosine) / band_) * (1.0 - kRoom) - kRoom;
+}
+
 double SoftAxis::flatness(const Site& site) const {
   double least = 1.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
@@ -225,6 +243,7 @@ double SoftAxis::flatness(const Site& site) const {
     for (const Block& block : curves_[pair].blocks) {
       const double most = (reach + block.radius) * (1.0 + kRoom);
       if ((site.p - block.centre).squaredNorm() > most * most) continue;
+      if (least_flatness(site, pair, block) >= least) continue;
       bool near = (site.p - points[block.first]).squaredNorm() < reach * reach;
       for (std::size_t k = block.first + 1; k <= block.last; ++k) {
         const bool before = near;

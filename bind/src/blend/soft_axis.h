@@ -73,6 +73,8 @@ class SoftAxis {
     Vec3 centre;
     double radius;
     std::size_t first, last;
+    Vec3 tangent;              ///< of one of them
+    double spread, curvature;  ///< most by which tangents differ from it; largest
   };
   struct Curve {
     const BSpline* curve;
@@ -97,10 +99,12 @@ class SoftAxis {
   /// direction to p. Where two critical points of the distance are about to appear, lambda and the cosine,
   /// which are its second and first derivative up to factors, vanish together.
   double flatness(const Site& site) const;
+  /// The same within a block, at least; cheap.
+  double least_flatness(const Site& site, std::uint32_t pair, const Block& block) const;
   /// The same between the samples first and first + 1.
   double flatness(const Site& site, std::uint32_t pair, std::size_t first) const;
   std::vector<Sample> samples(const Site& site, std::uint32_t pair) const;
-  static std::vector<Block> blocks_of(const std::vector<Vec3>& points);
+  static std::vector<Block> blocks_of(const Curve& curve);
   /// Least distance of a block's samples from p, and most from the nearest point of the site.
   struct Bounds {
     double away, apart;
