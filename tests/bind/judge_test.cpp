@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tendril/base/error.h>
 #include <tendril/bind/judge.h>
+#include <tendril/curve/closest_point.h>
 
 #include "bind/tear_cases.h"
 
@@ -56,6 +57,82 @@ TEST(TearJudge, SeesTheTearOfNearestBindingGrowLikeALine) {
   ASSERT_EQ(report.levels.size(), 3u);
   EXPECT_GT(report.levels[0].edges, 20000u);
   EXPECT_EQ(report.worst.front().stretch, report.levels[0].max);
+}
+
+/// The cut locus between the two legs of the axis is the line in their middle, and beyond the bend a part of
+/// the plane's medial axis: all tears lie on it, as exactly as halving finds it.
+TEST(TearJudge, FindsWhereTheSheetIsTorn) {
+  const JudgeReport report = judged(BindMode::nearest, 3, 0);
+  EXPECT_EQ(report.verdict, TearVerdict::tear);
+  EXPECT_GT(report.torn, 100u);
+  ASSERT_EQ(report.tears.size(), 100u);
+  const test::Chain legs = test::tear_axes(sheet(40, 20).points)[3].rest;
+  const CurvePair rest = test::tear_pose(legs, 0).rest;
+  const CurveProjector projector(rest.primary());
+  for (const Tear& tear : report.tears) {
+    EXPECT_GT(tear.gap, 1e-3 * std::sqrt(20.0));
+    // Two places of the axis are nearest, or as near as each other: a step of the last piece apart.
+    const double here = projector.nearest(tear.place).t;
+    bool jumps = false;
+    for (const double step : {-1e-7, 1e-7})
+      for (const Vec3& along : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+        jumps |= std::abs(projector.nearest(tear.place + step * along).t - here) > 1e-3;
+    EXPECT_TRUE(jumps) << tear.place.transpose();
+  }
+  EXPECT_TRUE(std::is_sorted(report.tears.begin(), report.tears.end(),
+                             [](const Tear& a, const Tear& b) { return a.gap > b.gap; }));
+}
+
+/// A transition that the edges of the sheet do not resolve: its stretch grows with every split, as a tear's
+/// does, but has a limit.
+TEST(TearJudge, TellsATransitionTooFineForTheMeshFromATear) {
+  const PolygonMesh mesh = sheet(40, 20);
+  const test::RestAndPose pair = test::tear_pose(test::tear_axes(mesh.points)[3].rest, 0);
+  const auto verdict = [&](BindMode mode) {
+    return TearJudge({&pair.rest, 1}, mesh, {.mode = mode, .band = 0.02},
+                     {.refinements = 1, .least_edges = 1000})
+        .judge({&pair.posed, 1});
+  };
+  const JudgeReport smooth = verdict(BindMode::continuous);
+  EXPECT_GT(smooth.growth_of_max, 1.8);
+  EXPECT_EQ(smooth.verdict, TearVerdict::smooth);
+  EXPECT_EQ(smooth.torn, 0u);
+  EXPECT_TRUE(smooth.tears.empty());
+  EXPECT_GT(smooth.steepest, 1.5 * smooth.levels.back().max);
+  EXPECT_EQ(verdict(BindMode::nearest).verdict, TearVerdict::tear);
+}
+
+TEST(TearJudge, SaysBeforeItBindsHowMuch) {
+  for (const int refinements : {1, 2})
+    for (const std::size_t least : {std::size_t{100}, std::size_t{5000}}) {
+      const JudgeOptions options{.refinements = refinements, .least_edges = least};
+      const PolygonMesh mesh = sheet(16, 8);
+      const CurvePair rest = test::tear_pose(test::tear_axes(mesh.points)[0].rest, 0).rest;
+      const TearJudge judge({&rest, 1}, mesh, {}, options);
+      const JudgeReport report = judge.judge({&rest, 1});
+      const JudgeCost cost = judge_cost(mesh, options);
+      EXPECT_EQ(cost.points, report.levels.back().points);
+      EXPECT_EQ(cost.edges, report.levels.back().edges);
+      EXPECT_EQ(judge.own_binding().size(), mesh.points.size());
+    }
+}
+
+/// What is added by splits is bound as the points of a mesh that was split before.
+TEST(TearJudge, BindsWhatItAddsAsAMeshOfItsOwn) {
+  const PolygonMesh mesh = sheet(12, 6);
+  const test::RestAndPose pair = test::tear_pose(test::tear_axes(mesh.points)[3].rest, 4);
+  const TearJudge judge({&pair.rest, 1}, mesh, {}, {.refinements = 1, .least_edges = 1000});
+  const JudgeReport report = judge.judge({&pair.posed, 1});
+  const PolygonMesh fine = split_at_middles(judge.mesh());
+  std::vector<Vec3> points(fine.points.size());
+  Binding({&pair.rest, 1}, fine, {}).update({&pair.posed, 1}, points);
+  double most = 0.0;
+  for (std::size_t f = 0; f < fine.face_count(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = fine.face(f)[k], b = fine.face(f)[(k + 1) % 3];
+      most = std::max(most, (points[a] - points[b]).norm() / (fine.points[a] - fine.points[b]).norm());
+    }
+  EXPECT_NEAR(report.levels.back().max, most, 1e-9 * most);
 }
 
 TEST(TearJudge, SeesNoTearInContinuousBinding) {
@@ -122,6 +199,8 @@ TEST(TearJudge, RefusesWhatItCannotJudge) {
   const CurvePair rest = test::tear_pose(test::tear_axes(mesh.points)[0].rest, 0).rest;
   EXPECT_THROW(TearJudge({&rest, 1}, mesh, {}, {.refinements = 0}), InvalidInput);
   EXPECT_THROW(TearJudge({&rest, 1}, mesh, {}, {.limit = 0.0}), InvalidInput);
+  EXPECT_THROW(TearJudge({&rest, 1}, mesh, {}, {.least_gap = 0.0}), InvalidInput);
+  EXPECT_THROW(judge_cost(mesh, {.refinements = 5}), InvalidInput);
   PolygonMesh points;
   points.points = mesh.points;
   EXPECT_THROW(TearJudge({&rest, 1}, points, {}, {}), InvalidInput);

@@ -260,6 +260,12 @@ TEST(LooseParts, FollowWholeTheLimbTheySitOn) {
       EXPECT_NEAR((out[i] - out[k]).norm(), (hand.mesh.points[i] - hand.mesh.points[k]).norm(), 1e-14);
     EXPECT_GT((out[i] - hand.mesh.points[i]).norm(), 0.1);
   }
+  ASSERT_EQ(binding.report().loose.size(), 1u);
+  const LoosePart& part = binding.report().loose[0];
+  EXPECT_EQ(part.first, first);
+  EXPECT_EQ(part.points, out.size() - first);
+  EXPECT_EQ(part.pair, 1u);
+  EXPECT_EQ(part.t, binding.records()[first].t);
 }
 
 /// What a vertex is bound to is a function of its place on the surface.

@@ -45,8 +45,59 @@ TEST(Bind, ShowsTheTearOfNearestBindingAndNoneOfContinuous) {
   const Outcome continuous = folder.run(command);
   const Json smooth = Json::parse(continuous.out);
   EXPECT_NE(smooth.at("judge").at("verdict"), "tear");
-  EXPECT_GT(smooth.at("binding").at("ambiguous").size(), 0U);
-  EXPECT_LT(smooth.at("binding").at("ambiguous").size(), 25U * 13U);
+  EXPECT_GT(smooth.at("binding").at("ambiguous").at("count"), 0U);
+  EXPECT_LT(smooth.at("binding").at("ambiguous").at("count"), 25U * 13U);
+}
+
+/// Lists that may be as long as the mesh are cut, and counted.
+TEST(Bind, ListsAHundredOfWhatIsManyAndSaysHowMany) {
+  const Folder folder;
+  folder.write("sheet.off", sheet_off());
+  folder.write("axis.json", kAxis);
+  folder.write("pose.json", kPose);
+  const Outcome outcome = folder.run("bind sheet.off --axis axis.json --pose pose.json --nearest --json");
+  const Json out = Json::parse(outcome.out);
+  const Json& gated = out.at("binding").at("past_focus");
+  EXPECT_EQ(gated.at("ids").size(), std::min<std::size_t>(100, gated.at("count").get<std::size_t>()));
+  const Json& judge = out.at("judge");
+  EXPECT_GT(judge.at("torn"), 0);
+  EXPECT_EQ(judge.at("tears").size(), std::min<std::size_t>(100, judge.at("torn").get<std::size_t>()));
+  ASSERT_GT(judge.at("distortion").at("zones").size(), 0U);
+  bool cut = false;
+  for (const Json& zone : judge.at("distortion").at("zones")) {
+    const Json& faces = zone.at("faces");
+    EXPECT_EQ(faces.at("ids").size(), std::min<std::size_t>(100, faces.at("count").get<std::size_t>()));
+    cut |= faces.at("count") > 100;
+  }
+  EXPECT_TRUE(cut);
+  EXPECT_NE(outcome.err.find("tendril: judging binds "), std::string::npos) << outcome.err;
+  EXPECT_LT(outcome.out.size(), 200000U);
+}
+
+/// A tetrahedron on the sheet between the legs is nearer to one of them.
+TEST(Bind, SaysWhichPartsFollowWhichCurve) {
+  const Folder folder;
+  std::string text = sheet_off();
+  const std::string head = "OFF\n325 288 0\n";
+  ASSERT_TRUE(text.starts_with(head));
+  const std::size_t faces = text.find("\n4 ") + 1;
+  text = "OFF\n329 292 0\n" + text.substr(head.size(), faces - head.size()) +
+         "1 0.8 0.1\n1.02 0.8 0.1\n1 0.82 0.1\n1 0.8 0.12\n" + text.substr(faces) +
+         "3 325 327 326\n3 325 326 328\n3 326 327 328\n3 327 325 328\n";
+  folder.write("sheet.off", text);
+  folder.write("tree.json", R"({"version": 1, "curves": [
+    {"name": "lower", "orientation": [0, 0, 1], "points": [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2.5, 0, 0]]},
+    {"name": "upper", "orientation": [0, 0, 1], "points": [[0, 1, 0], [1, 1, 0], [2, 1, 0], [2.5, 1, 0]]}]})");
+  const Json loose =
+      Json::parse(folder.run("bind sheet.off --axis tree.json --json").out).at("binding").at("loose");
+  ASSERT_EQ(loose.size(), 1U) << loose;
+  EXPECT_EQ(loose[0].at("first"), 325);
+  EXPECT_EQ(loose[0].at("points"), 4);
+  EXPECT_EQ(loose[0].at("curve_pair"), "upper");
+  EXPECT_NEAR(loose[0].at("parameter").get<double>(), 0.4, 0.05);
+  const std::string told = folder.run("bind sheet.off --axis tree.json").out;
+  EXPECT_NE(told.find("a part of 4 point(s), from point 325 on, follows upper whole"), std::string::npos)
+      << told;
 }
 
 TEST(Bind, DrawsAndReportsWithoutAPose) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "blend/branches.h"
 #include "layout.h"
 #include "mesh/parallel.h"
+#include "surface_binder.h"
 
 namespace tendril::bind {
 namespace {
@@ -64,17 +64,14 @@ void lay_out(const Branches& branches, bool with_pairs, BindingLayout& layout) {
   if (with_pairs) layout.pair.resize(layout.entries.size());
 }
 
-void share(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options,
+void share(std::span<const CurvePair> rest, Points points, Branches branches, const BindOptions& options,
            BindingLayout& layout, Found& found, BindReport& report) {
-  std::vector<CurveProjector> projectors;
-  for (const CurvePair& pair : rest) projectors.emplace_back(pair.primary());
-  Branches branches = find_branches(projectors, mesh, options.band, options.threads);
   if (options.mode == BindMode::nearest)
     for (auto& influences : branches.influences) influences.clear();
   lay_out(branches, rest.size() > 1, layout);
   const auto enter = [&](std::size_t entry, std::uint32_t pair, double t, std::size_t point) {
     if (!layout.pair.empty()) layout.pair[entry] = pair;
-    layout.entries[entry] = to_axial(rest[pair], t, mesh.points[point]);
+    layout.entries[entry] = to_axial(rest[pair], t, points[point]);
   };
   in_parts(layout.size, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -131,25 +128,40 @@ Binding::Binding(const CurvePair& rest, Points points, int threads) {
   report_.shares = layout_->entries.size();
 }
 
-Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options) {
-  check(mesh.points, options.threads);
-  require_valid(mesh);
+SurfaceBinder::SurfaceBinder(std::span<const CurvePair> rest, const PolygonMesh& body,
+                             const BindOptions& options)
+    : rest_(rest), options_(options) {
+  check(body.points, options.threads);
+  require_valid(body);
   if (rest.empty()) throw InvalidInput("rest", "no curve-pair", "at least one");
   if (!(options.band > 0.0 && options.band <= 1.0))
     throw InvalidInput("band", std::to_string(options.band), "above 0, at most 1");
-  auto layout = std::make_shared<BindingLayout>();
-  Found found(mesh.points.size());
-  layout->size = mesh.points.size();
-  for (const CurvePair& pair : rest) layout->knots.push_back(pair.knots());
-  if (rest.size() == 1 && options.mode == BindMode::nearest)
-    project(rest[0], mesh.points, options.threads, *layout, found);
-  else
-    share(rest, mesh, options, *layout, found, report_);
-  layout->arrange(kInPlane * bounding_diagonal(mesh.points));
-  layout_ = std::move(layout);
-  inspect(rest, mesh.points, options.threads, *this, found, report_);
-  report_.shares = layout_->entries.size();
+  negligible_ = kInPlane * bounding_diagonal(body.points);
+  for (const CurvePair& pair : rest) projectors_.emplace_back(pair.primary());
+  if (rest.size() > 1 || options.mode != BindMode::nearest)
+    branches_ = std::make_unique<BodyBranches>(projectors_, body, options.band, options.threads);
 }
+
+Binding SurfaceBinder::bind(Points points, std::span<const std::uint32_t> face) const {
+  Binding out;
+  auto layout = std::make_shared<BindingLayout>();
+  Found found(points.size());
+  layout->size = points.size();
+  for (const CurvePair& pair : rest_) layout->knots.push_back(pair.knots());
+  if (branches_)
+    share(rest_, points, branches_->find(points, face, options_.threads), options_, *layout, found,
+          out.report_);
+  else
+    project(rest_[0], points, options_.threads, *layout, found);
+  layout->arrange(negligible_);
+  out.layout_ = std::move(layout);
+  inspect(rest_, points, options_.threads, out, found, out.report_);
+  out.report_.shares = out.layout_->entries.size();
+  return out;
+}
+
+Binding::Binding(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& options)
+    : Binding(SurfaceBinder(rest, mesh, options).bind(mesh.points, {})) {}
 
 std::size_t Binding::size() const {
   return layout_->size;

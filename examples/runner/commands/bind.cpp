@@ -25,13 +25,33 @@ struct Options {
   int refinements = bind::JudgeOptions{}.refinements, threads = 0;
 };
 
-OrderedJson to_json(const bind::BindReport& report) {
-  return {{"rest_error", report.rest_error}, {"largest_gap", report.largest_gap},
-          {"shares", report.shares},         {"beyond_ends", report.beyond_ends},
-          {"clusters", report.clusters},     {"ambiguous", report.ambiguous},
-          {"gated", report.gated},           {"past_focus", report.past_focus},
-          {"degenerate", report.degenerate}};
+/// Parts listed; there may be as many as faces.
+constexpr std::size_t kParts = 100;
+
+OrderedJson to_json(const bind::BindReport& report, const Axes& axes) {
+  OrderedJson loose = OrderedJson::array();
+  for (std::size_t k = 0; k < std::min(report.loose.size(), kParts); ++k) {
+    const bind::LoosePart& part = report.loose[k];
+    loose.push_back({{"first", part.first},
+                     {"points", part.points},
+                     {"curve_pair", axes.names[part.pair]},
+                     {"parameter", part.t}});
+  }
+  return {{"rest_error", report.rest_error},
+          {"largest_gap", report.largest_gap},
+          {"shares", report.shares},
+          {"beyond_ends", report.beyond_ends},
+          {"clusters", report.clusters},
+          {"ambiguous", runner::to_json(report.ambiguous)},
+          {"gated", runner::to_json(report.gated)},
+          {"past_focus", runner::to_json(report.past_focus)},
+          {"degenerate", runner::to_json(report.degenerate)},
+          {"loose_count", report.loose.size()},
+          {"loose", loose}};
 }
+
+constexpr double kSecondsAlways = 0.3, kSecondsPerPoint = 6e-6;
+constexpr double kMegabytesAlways = 40.0, kMegabytesPerPoint = 7e-4;
 
 /// Share of a mesh's area that a pose may spoil and still be right.
 constexpr double kMostSpoilt = 1e-3;
@@ -54,10 +74,16 @@ OrderedJson to_json(const bind::JudgeReport& report, const bind::Distortion& dis
                       {"flipped", level.flipped},
                       {"rest_error", level.rest_error},
                       {"ambiguous", level.ambiguous}});
+  OrderedJson tears = OrderedJson::array();
+  for (const bind::Tear& tear : report.tears)
+    tears.push_back({{"place", runner::to_json(tear.place)}, {"gap", tear.gap}});
   OrderedJson worst = OrderedJson::array();
   for (const bind::WorstEdge& edge : report.worst)
     worst.push_back({{"points", {edge.a, edge.b}}, {"stretch", edge.stretch}});
   return {{"verdict", verdict_of(report, distortion)},
+          {"torn", report.torn},
+          {"tears", tears},
+          {"steepest", report.steepest},
           {"growth", report.growth},
           {"growth_of_max",
            std::isfinite(report.growth_of_max) ? OrderedJson(report.growth_of_max) : OrderedJson()},
@@ -78,6 +104,11 @@ void print_row(const char* name, const bind::JudgeReport& report, const bind::Di
     std::printf("    %.2g %% about %g %g %g, radius %.3g\n", 100.0 * zone.area, zone.centre.x(),
                 zone.centre.y(), zone.centre.z(), zone.radius);
   }
+  if (report.torn > 0)
+    std::printf("  torn across %zu edge(s) looked at, the widest by %.3g about %g %g %g\n", report.torn,
+                report.tears[0].gap, report.tears[0].place.x(), report.tears[0].place.y(),
+                report.tears[0].place.z());
+  std::printf("  largest stretch in the limit, elsewhere: %.3g\n", report.steepest);
   std::printf("  %10s %8s %8s %8s %8s %8s %8s %8s %9s %8s\n", "edges", "p50", "p90", "p99", "p99.9", "p99.99",
               "max", "> limit", "flipped", "rest");
   for (const bind::JudgeLevel& level : report.levels) {
@@ -141,34 +172,63 @@ void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Bind
   write_file_whole(options.picture, png_bytes(contact_sheet(panels, captions, 2)));
 }
 
+void tell_binding(const Options& options, const bind::BindReport& report, const Axes& axes,
+                  std::size_t points) {
+  std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu shares, rest error %.1e\n", options.mesh.c_str(),
+              points, report.ambiguous.size(), report.gated.size(), report.shares, report.rest_error);
+  constexpr std::size_t kPrinted = 10;
+  for (std::size_t k = 0; k < std::min(report.loose.size(), kPrinted); ++k)
+    std::printf("  a part of %zu point(s), from point %u on, follows %s whole\n", report.loose[k].points,
+                report.loose[k].first, axes.names[report.loose[k].pair].c_str());
+  if (report.loose.size() > kPrinted)
+    std::printf("  and %zu part(s) more, see --json\n", report.loose.size() - kPrinted);
+}
+
+/// What judging will take, on standard error, as it is told before and is no result. Measured on one core
+/// (tests/bench/binding, section judging); trees of axes take up to half as long again.
+void tell_cost(const bind::JudgeCost& cost) {
+  const auto points = static_cast<double>(cost.points);
+  std::fprintf(stderr, "tendril: judging binds %zu points: some %.1g s of one core, and %.0f MB\n",
+               cost.points, kSecondsAlways + kSecondsPerPoint * points,
+               kMegabytesAlways + kMegabytesPerPoint * points);
+}
+
+/// \return  whether the pose is right
+bool judge_pose(const Options& options, const Axes& axes, const bind::TearJudge& judged, OrderedJson& out) {
+  const bind::JudgeReport report = judged.judge(axes.posed);
+  std::vector<Vec3> points(judged.mesh().points.size());
+  const int threads = thread_count(options.threads);
+  judged.binding().update(axes.posed, points, threads);
+  const bind::Distortion distortion =
+      bind::measure_distortion(judged.binding(), axes.rest, judged.mesh(), axes.posed, points);
+  out["judge"] = to_json(report, distortion);
+  if (!options.json) print_row(options.mode.nearest ? "nearest" : "continuous", report, distortion);
+  if (!options.picture.empty()) draw_bound(options, judged.mesh(), judged.binding(), axes, threads);
+  return std::string(verdict_of(report, distortion)) == "right";
+}
+
 int judge(const Options& options) {
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes = read_axes(options.axes, options.poses);
   const bind::BindOptions how{options.mode.mode(), options.band, threads};
-  const bind::Binding binding(axes.rest, mesh, how);
-  OrderedJson out{
-      {"mesh", options.mesh}, {"points", mesh.points.size()}, {"binding", to_json(binding.report())}};
-  if (!options.json)
-    std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu shares, rest error %.1e\n",
-                options.mesh.c_str(), mesh.points.size(), binding.report().ambiguous.size(),
-                binding.report().gated.size(), binding.report().shares, binding.report().rest_error);
+  OrderedJson out{{"mesh", options.mesh}, {"points", mesh.points.size()}};
+  const auto tell = [&](const bind::Binding& binding) {
+    out["binding"] = to_json(binding.report(), axes);
+    if (!options.json) tell_binding(options, binding.report(), axes, mesh.points.size());
+  };
   bool right = true;
   if (axes.posed.empty()) {
+    const bind::Binding binding(axes.rest, mesh, how);
+    tell(binding);
     if (!options.picture.empty()) draw_bound(options, mesh, binding, axes, threads);
   } else {
     bind::JudgeOptions judging;
     judging.refinements = options.refinements;
+    tell_cost(bind::judge_cost(mesh, judging));
     const bind::TearJudge judged(axes.rest, mesh, how, judging);
-    if (!options.picture.empty()) draw_bound(options, judged.mesh(), judged.binding(), axes, threads);
-    const bind::JudgeReport report = judged.judge(axes.posed);
-    std::vector<Vec3> points(judged.mesh().points.size());
-    judged.binding().update(axes.posed, points, threads);
-    const bind::Distortion distortion =
-        bind::measure_distortion(judged.binding(), axes.rest, judged.mesh(), axes.posed, points);
-    right = std::string(verdict_of(report, distortion)) == "right";
-    out["judge"] = to_json(report, distortion);
-    if (!options.json) print_row(options.mode.nearest ? "nearest" : "continuous", report, distortion);
+    tell(judged.own_binding());
+    right = judge_pose(options, axes, judged, out);
   }
   if (options.json) print(out);
   return right ? kDone : kNoSuccess;

@@ -61,9 +61,9 @@ void tell(const Options& options, const bind::BindReport& report, const bind::Di
            {"rest_error", report.rest_error},
            {"largest_gap", report.largest_gap},
            {"beyond_ends", report.beyond_ends},
-           {"ambiguous", report.ambiguous},
-           {"past_focus", report.past_focus},
-           {"degenerate", report.degenerate},
+           {"ambiguous", runner::to_json(report.ambiguous)},
+           {"past_focus", runner::to_json(report.past_focus)},
+           {"degenerate", runner::to_json(report.degenerate)},
            {"distortion", runner::to_json(distortion)}});
   } else {
     std::cout << options.out << ": " << points << " points; " << report.beyond_ends << " beyond the ends, "

@@ -28,6 +28,7 @@ Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::stri
     for (const scene::CurveFile& curve : at_rest) {
       require_frames(curve);
       axes.rest.push_back(curve.pair);
+      axes.names.push_back(curve.name.empty() ? curve.place : curve.name);
     }
     if (posed.empty()) continue;
     const std::vector<scene::CurveFile> in_pose = scene::read_curves(posed[i], at_rest);

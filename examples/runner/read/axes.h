@@ -9,6 +9,7 @@ namespace tendril::runner {
 /// are curve-pairs whose frames jump, naming the nodes.
 struct Axes {
   std::vector<CurvePair> rest, posed;
+  std::vector<std::string> names;  ///< as the files call them, or their places there
 };
 Axes read_axes(const std::vector<std::string>& rest, const std::vector<std::string>& posed,
                const std::string& expected_knots = "the same");

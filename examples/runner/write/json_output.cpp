@@ -1,26 +1,41 @@
 #include "write/json_output.h"
 
+#include <algorithm>
 #include <iostream>
 
 namespace tendril::runner {
+namespace {
+
+/// Entries of a list that may be as long as the mesh.
+constexpr std::size_t kListed = 100;
+
+}  // namespace
 
 OrderedJson to_json(const Vec3& v) {
   return OrderedJson::array({v.x(), v.y(), v.z()});
 }
 
+OrderedJson to_json(const std::vector<std::uint32_t>& ids) {
+  const auto end = ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), kListed));
+  return {{"count", ids.size()}, {"ids", std::vector<std::uint32_t>(ids.begin(), end)}};
+}
+
 OrderedJson to_json(const bind::Distortion& distortion) {
   OrderedJson zones = OrderedJson::array();
-  for (const bind::SpoiltZone& zone : distortion.zones)
+  for (std::size_t k = 0; k < std::min(distortion.zones.size(), kListed); ++k) {
+    const bind::SpoiltZone& zone = distortion.zones[k];
     zones.push_back({{"centre", to_json(zone.centre)},
                      {"radius", zone.radius},
                      {"area", zone.area},
-                     {"faces", zone.faces}});
+                     {"faces", to_json(zone.faces)}});
+  }
   return {{"most_stretch", distortion.most_stretch},
           {"least_stretch", distortion.least_stretch},
           {"stretched", distortion.stretched},
           {"crushed", distortion.crushed},
           {"folded", distortion.folded},
           {"spoilt_area", distortion.spoilt},
+          {"zone_count", distortion.zones.size()},
           {"zones", zones}};
 }
 

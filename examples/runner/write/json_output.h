@@ -5,7 +5,9 @@
 #include <tendril/bind/distortion.h>
 #include <tendril/curve/frames.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace tendril::runner {
 
@@ -15,7 +17,10 @@ using OrderedJson = nlohmann::ordered_json;
 /// [x, y, z]; numbers in JSON output read back to the same bits.
 OrderedJson to_json(const Vec3& v);
 
-/// What a pose spoils, with the faces of each zone.
+/// How many ids there are, and the first hundred of them.
+OrderedJson to_json(const std::vector<std::uint32_t>& ids);
+
+/// What a pose spoils, with the hundred largest zones and some faces of each.
 OrderedJson to_json(const bind::Distortion& distortion);
 
 /// Writes the value and a line end to standard output.

@@ -1,5 +1,5 @@
-// Times of bindings, projections and readers, and of their peers, from one run on one thread; the arguments
-// are those of command_line.h.
+// Times of bindings, projections, readers and judges, and of their peers, from one run on one thread; the
+// arguments are those of command_line.h.
 #include "bench/binding/sections.h"
 
 int main(int argc, char** argv) {
@@ -8,5 +8,6 @@ int main(int argc, char** argv) {
                    {{"update", "update", update_section},
                     {"transpose", "transpose", transpose_section},
                     {"projection", "projection", projection_section},
-                    {"reading", "reading", reading_section}});
+                    {"reading", "reading", reading_section},
+                    {"judging", "judging", judging_section}});
 }

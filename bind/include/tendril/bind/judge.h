@@ -5,22 +5,20 @@
 
 #include <array>
 
-/// Tells a tear from a stretch by refinement: the mesh is bound and posed, split at the middles of its edges,
-/// bound and posed again. Across a tear two neighbours are bound apart, however near they are: their stretch
-/// doubles with every split, and so does the number of such edges, which lie along a curve. A steep but
-/// continuous map keeps its stretch, and the number of edges in a steep region grows fourfold, as its area
-/// holds more of them.
+/// Tells a tear from a stretch by its limit. Where the map from rest to pose is continuous, however steep,
+/// the ends of a piece of an edge come together as the piece is halved again and again; where it jumps they
+/// stay apart. The edges that are halved are those that are stretched the most, and those of which a half is
+/// stretched clearly more than the whole: across a jump twice as much.
 namespace tendril::bind {
 
 /// How finely a mesh is examined.
 struct JudgeOptions {
-  int refinements = 2;  ///< 1 to 4
-  /// Meshes with fewer edges are split before they are judged, so that a share of 1e-4 of the edges is some.
-  std::size_t least_edges = 100000;
+  int refinements = 1;              ///< times all edges are split, 1 to 4
+  std::size_t least_edges = 10000;  ///< meshes with fewer are split before they are judged
   double limit = 20.0;              ///< stretch from which an edge counts in JudgeLevel::beyond
-  double most_growth = 1.1;         ///< of any quantile with one split, for the verdict `smooth`
-  double most_growth_of_max = 1.6;  ///< of the largest stretch with one split, for the verdict `smooth`
-  std::size_t worst = 100;          ///< edges listed
+  double least_gap = 1e-3;          ///< of a tear, over the diagonal of the mesh's box; in [1e-6, 1]
+  std::size_t halved = 500;         ///< edges of either kind that are halved to the limit
+  std::size_t worst = 100;          ///< edges and tears listed
 };
 
 /// Shares of the edges of which the stretch is given: half of them are stretched less than quantile[0].
@@ -39,10 +37,10 @@ struct JudgeLevel {
   std::size_t ambiguous = 0;  ///< points in BindReport::ambiguous
 };
 
-/// Whether stretches stay bounded under refinement.
+/// Whether the pose is continuous.
 enum class TearVerdict {
-  smooth,  ///< no growth beyond the options' limits
-  tear     ///< some quantile, or the largest stretch, grows beyond them
+  smooth,  ///< no piece of an edge stays apart
+  tear     ///< some do
 };
 
 /// An edge among the most stretched ones.
@@ -52,21 +50,40 @@ struct WorstEdge {
   double stretch;   ///< posed over rest length
 };
 
+/// Where an edge is torn.
+struct Tear {
+  Vec3 place;  ///< on the mesh at rest [length]
+  double gap;  ///< by which what is side by side there is apart in the pose [length]
+};
+
 /// What the judge says of a pose.
 struct JudgeReport {
-  std::vector<JudgeLevel> levels;                    ///< the coarsest first
-  std::array<double, kJudgeShares.size()> growth{};  ///< of the quantiles, largest over the splits
-  double growth_of_max = 0.0;                        ///< of the largest stretch, largest over the splits
+  TearVerdict verdict = TearVerdict::smooth;  ///< by `torn`
+  std::size_t torn = 0;                       ///< of the edges that were halved
+  std::vector<Tear> tears;                    ///< of these the widest, as many as asked for
+  double steepest = 0.0;           ///< largest stretch of the others' shortest pieces: that of the limit
+  std::vector<WorstEdge> worst;    ///< of the first level, the worst first
+  std::vector<JudgeLevel> levels;  ///< the coarsest first
+  /// Of the quantiles, largest over the splits. A tear doubles the stretch of what crosses it, a transition
+  /// that the mesh does not resolve may do so too.
+  std::array<double, kJudgeShares.size()> growth{};
+  double growth_of_max = 0.0;  ///< of the largest stretch, largest over the splits
   /// log2 of the growth of `beyond` with the last split: 1 along a line, 2 over an area; 0 for none.
   double exponent = 0.0;
-  TearVerdict verdict = TearVerdict::smooth;  ///< by the growths
-  std::vector<WorstEdge> worst;               ///< of the first level, the worst first
 };
+
+/// What a judge takes before it is asked for one.
+struct JudgeCost {
+  std::size_t points;  ///< that are bound
+  std::size_t edges;   ///< of the finest level
+};
+/// Counts without binding; O(corners log corners). Throws InvalidInput as TearJudge does for its options.
+TENDRIL_BIND_API JudgeCost judge_cost(const PolygonMesh& mesh, const JudgeOptions& options = {});
 
 /// Binds all levels once, judges any number of poses.
 class TENDRIL_BIND_API TearJudge {
  public:
-  /// Throws InvalidInput as Binding does. Memory: 4^refinements times the mesh and its binding.
+  /// Throws InvalidInput as Binding does. Memory: about 700 bytes for each of judge_cost's points.
   TearJudge(std::span<const CurvePair> rest, const PolygonMesh& mesh, const BindOptions& bind,
             const JudgeOptions& options = {});
   ~TearJudge();
@@ -76,17 +93,14 @@ class TENDRIL_BIND_API TearJudge {
   /// \param posed  as for Binding::update
   JudgeReport judge(std::span<const CurvePair> posed) const;
 
+  const Binding& own_binding() const;  ///< of the mesh's own points
   /// The first level: the mesh in triangles, with its own points first.
   const PolygonMesh& mesh() const;
   const Binding& binding() const;  ///< of the first level
 
  private:
-  struct Level;
-  void conclude(JudgeReport& report) const;
-  std::vector<CurvePair> rest_;
-  JudgeOptions options_;
-  int threads_;
-  std::vector<Level> levels_;
+  struct Data;
+  std::unique_ptr<const Data> data_;
 };
 
 /// Every triangle split in four at the middles of its edges; faces become fans of triangles first. Points
