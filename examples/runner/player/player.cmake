@@ -9,7 +9,7 @@ if(TENDRIL_PLAYER)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_lock})
   find_program(TENDRIL_NODE NAMES node nodejs)
   execute_process(COMMAND bash ${PROJECT_SOURCE_DIR}/.cmake/npm.sh ${page_folder} ${page_packages})
-  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${page_lock} ${page_packages}/package-lock.json
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${page_lock} ${page_packages}/fetched.json
     RESULT_VARIABLE differs OUTPUT_QUIET ERROR_QUIET)
   if(TENDRIL_NODE AND differs EQUAL 0)
     set(has_player ON)
@@ -23,7 +23,7 @@ if(has_player)
   file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*.js ${page_folder}/*.css ${page_folder}/*.html)
   add_custom_command(OUTPUT page_text.cpp
     COMMAND ${TENDRIL_NODE} ${page_folder}/bundle.mjs ${page_packages}/node_modules ${CMAKE_CURRENT_BINARY_DIR}/page_text.cpp
-    DEPENDS ${page_parts} ${page_folder}/bundle.mjs ${page_packages}/package-lock.json
+    DEPENDS ${page_parts} ${page_folder}/bundle.mjs ${page_packages}/fetched.json
     COMMENT "Bundling the player's page" VERBATIM)
   target_sources(tendril_runner PRIVATE player/pack.cpp player/page.cpp ${CMAKE_CURRENT_BINARY_DIR}/page_text.cpp)
 else()
