@@ -50,8 +50,8 @@ OrderedJson to_json(const bind::BindReport& report, const Axes& axes) {
           {"loose", loose}};
 }
 
-constexpr double kSecondsAlways = 0.3, kSecondsPerPoint = 6e-6;
-constexpr double kMegabytesAlways = 40.0, kMegabytesPerPoint = 7e-4;
+constexpr double kSecondsAlways = 0.3, kSecondsPerPoint = 1e-5;
+constexpr double kMegabytesAlways = 55.0, kMegabytesPerPoint = 6e-4;
 
 /// Share of a mesh's area that a pose may spoil and still be right.
 constexpr double kMostSpoilt = 1e-3;

@@ -14,31 +14,29 @@ namespace tendril::bench {
 namespace {
 
 struct Run {
-  bool done = false;
+  int code = -1;  ///< of the process; -1 where it did not end by itself
   double seconds = 0.0, megabytes = 0.0;
 };
 
-/// CPU time and the most memory of a process of its own, less what it began with.
-Run apart(const std::function<void()>& work) {
+Run run_of(const std::function<int()>& work) {
   std::fflush(stdout);
-  rusage idle{}, used{};
-  const auto wait = [](pid_t child, rusage& usage) {
-    int status = 0;
-    return child > 0 && wait4(child, &status, 0, &usage) == child && WIFEXITED(status) &&
-           WEXITSTATUS(status) == 0;
-  };
-  const pid_t nothing = fork();
-  if (nothing == 0) _exit(0);
-  const bool waited = wait(nothing, idle);
   const pid_t child = fork();
-  if (child == 0) {
-    work();
-    _exit(0);
-  }
-  Run out{wait(child, used) && waited, 0.0, 0.0};
+  if (child == 0) _exit(work());
+  int status = 0;
+  rusage used{};
+  if (child < 0 || wait4(child, &status, 0, &used) != child || !WIFEXITED(status)) return {};
+  Run out{WEXITSTATUS(status), 0.0, 1e-6 * 1024.0 * static_cast<double>(used.ru_maxrss)};
   for (const timeval& part : {used.ru_utime, used.ru_stime})
     out.seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
-  out.megabytes = 1e-6 * 1024.0 * static_cast<double>(used.ru_maxrss - idle.ru_maxrss);
+  return out;
+}
+
+/// Time on the processor and the most memory of a process of its own, less what it began with. This one does
+/// no work, so that it has no free memory to leave to the other.
+Run apart(const std::function<int()>& work) {
+  const Run idle = run_of([] { return 0; });
+  Run out = run_of(work);
+  out.megabytes -= idle.megabytes;
   return out;
 }
 
@@ -82,12 +80,11 @@ OrderedJson judging_section(Settings& settings) {
       continue;
     }
     const auto [rest, posed] = bent_axis(mesh.points);
-    const auto verdict = [&, &axis = rest, &pose = posed] {
-      return bind::TearJudge({&axis, 1}, mesh, {}).judge({&pose, 1}).verdict;
-    };
-    const Run run = apart([&] { verdict(); });
-    if (!run.done) settings.broken.push_back(std::string("judging ") + name);
-    const char* const said = verdict() == bind::TearVerdict::tear ? "tear" : "smooth";
+    const Run run = apart([&, &axis = rest, &pose = posed] {
+      return static_cast<int>(bind::TearJudge({&axis, 1}, mesh, {}).judge({&pose, 1}).verdict);
+    });
+    if (run.code < 0) settings.broken.push_back(std::string("judging ") + name);
+    const char* const said = run.code == static_cast<int>(bind::TearVerdict::tear) ? "tear" : "smooth";
     const std::size_t bound = bind::judge_cost(mesh).points;
     table.row({name, std::to_string(mesh.points.size()), std::to_string(bound), text("%.2f", run.seconds),
                text("%.0f", run.megabytes), said});
