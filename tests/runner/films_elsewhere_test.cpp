@@ -64,6 +64,46 @@ TEST(PlayerInChromium, VerticesInThePageAreTheLibrarysAndItPlays) {
     EXPECT_GT(std::filesystem::file_size(folder / ("blended" + look)), 20000u) << look;
 }
 
+/// Rows of a run's table.
+std::int64_t rows_of(const std::string& path) {
+  const std::string table = bytes_of(path);
+  return std::count(table.begin(), table.end(), '\n') - 1;
+}
+
+TEST(PlayerInChromium, DrawsEveryContactSolidAndLine) {
+  if (!can_play()) GTEST_SKIP() << kToPlay;
+  struct Shown {
+    std::string name, table;
+    int solids;
+    Json switches;
+  };
+  const Shown scenes[] = {
+      {"rope_over_rods", "rod_contacts.csv", 0, {"curve-pairs", "frames", "tubes", "contacts"}},
+      {"ball_on_leaf", "contacts.csv", 3, {"curve-pairs", "frames", "tubes", "contacts"}},
+      {"ball_on_leaf_blade", "mesh_contacts.csv", 1, {"mesh", "curve-pairs", "frames", "tubes", "contacts"}}};
+  const Folder folder;
+  std::vector<std::string> names;
+  for (const Shown& scene : scenes) {
+    const Outcome run = folder.run("run '" TENDRIL_SOURCE_DIR "/examples/scenes/" + scene.name +
+                                   ".json' --out " + scene.name + " --no-pictures --no-frames --player");
+    ASSERT_EQ(run.code, 0) << run.err;
+    names.push_back(scene.name);
+  }
+  names.emplace_back("bending");  // the last is played by hand
+  make_page(folder, "bending", bending(), tube_off());
+  const Json seen = play(folder, names);
+  for (std::size_t k = 0; k < std::size(scenes); ++k) {
+    const std::string& name = scenes[k].name;
+    const Json& page = seen.at(k);
+    EXPECT_EQ(page["faults"], Json::array()) << name;
+    EXPECT_EQ(page["switches"], scenes[k].switches) << name;
+    EXPECT_TRUE(page["outlines"]["finite"]) << name;
+    EXPECT_EQ(page["outlines"]["solids"], scenes[k].solids) << name;
+    EXPECT_EQ(page["outlines"]["drawn"], rows_of(folder / (name + "/" + scenes[k].table))) << name;
+    EXPECT_GT(page["outlines"]["drawn"], 10) << name;
+  }
+}
+
 /// Largest distance, at any moment, between where Blender has a file's vertices and where our skinning has
 /// them.
 double blender_off_by(const Folder& folder, const Json& scene) {

@@ -74,6 +74,29 @@ async function measure(moment) {
   return {points: Array.from(points), astray, top, aloft};
 }
 
+// In the page, with everything shown: how many contacts are drawn at all moments, and whether all lines, dots, tubes and
+// solids are somewhere.
+async function outlines() {
+  const {stage, last, show} = await window.tendril, {contacts} = stage.lines;
+  document.querySelectorAll('#switches input').forEach(input => input.checked || input.click());
+  let drawn = 0, finite = true;
+  const check = (attribute, count) => { finite &&= count <= attribute.count; for (let k = 0; finite && k < count; ++k) finite = Number.isFinite(attribute.getX(k) + attribute.getY(k) + attribute.getZ(k)); };
+  for (let k = 0; k <= last; ++k) {
+    show(k);
+    const [forces, dots] = contacts;
+    drawn += dots.geometry.drawRange.count;
+    finite &&= forces.geometry.instanceCount === dots.geometry.drawRange.count;
+    for (const line of Object.values(stage.lines).flat()) {
+      const {position, instanceStart, instanceEnd} = line.geometry.attributes;
+      if (!instanceStart) check(position, line.geometry.drawRange.count);
+      else [instanceStart, instanceEnd].forEach(end => check(end, line.geometry.instanceCount));
+    }
+    for (const {geometry: {attributes}} of stage.tubes) check(attributes.position, attributes.position.count);
+    for (const {matrixWorld} of stage.solids) finite &&= matrixWorld.elements.every(Number.isFinite);
+  }
+  return {drawn, finite, solids: stage.solids.length};
+}
+
 async function see(browser, file) {
   const name = path.basename(file, '.html'), faults = [];
   const page = await browser.newPage({viewport: {width: 1100, height: 780}, colorScheme: 'light', hasTouch: true});
@@ -83,7 +106,8 @@ async function see(browser, file) {
   await page.goto(`file://${file}`);
   const last = await page.evaluate(async () => (await window.tendril).last);
   const moments = [...new Set([0, Math.floor(last / 2), last])], times = [];
-  for (const moment of moments) {
+  const mesh = await page.evaluate(async () => !!(await window.tendril).stage.mesh);
+  for (const moment of mesh ? moments : []) {
     const {points, astray, aloft} = await page.evaluate(measure, moment);
     if (!(astray < 1e-4)) faults.push(`drawn ${astray} of the picture from where it is`);
     if (!(aloft < 2e-3)) faults.push(`a shadow ${aloft} of the size from the ground`);
@@ -91,6 +115,11 @@ async function see(browser, file) {
     times.push(Number(await page.textContent('#time')));
   }
   return {page, seen: {name, last, moments, times, faults}};
+}
+
+// What of a page is worth no picture.
+async function look(page) {
+  return {outlines: await page.evaluate(outlines), switches: await page.locator('#switches label').allTextContents()};
 }
 
 // By keyboard, as a person would.
@@ -181,6 +210,7 @@ async function picture(page, name, last) {
     const {page, seen: one} = await see(browser, path.resolve(file));
     if (k === pages.length - 1) Object.assign(one, await play(page), await touch(page), {switches: await picture(page, one.name, one.last)},
                                                  {narrow: await narrow(page), refusal: await refusal(browser, path.resolve(file))});
+    else Object.assign(one, await look(page));
     await page.close();
     seen.push(one);
   }

@@ -18,6 +18,7 @@ export class Strokes extends LineSegments2 {
     geometry.setPositions(new Float32Array(6 * room));
     geometry.setColors(new Float32Array(6 * room));
     super(geometry, new LineMaterial({...kOnTop, linewidth: width}));
+    this.begin();
     this.frustumCulled = false;
     this.renderOrder = 1;
   }
@@ -50,6 +51,8 @@ export class Dots extends Points {
     const geometry = new BufferGeometry();
     for (const name of ['position', 'color']) geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * room), 3));
     super(geometry, new PointsMaterial({...kOnTop, size, sizeAttenuation: false, map: disc()}));
+    this.begin();
+    this.end();
     this.frustumCulled = false;
     this.renderOrder = 2;
   }
