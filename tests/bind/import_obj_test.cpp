@@ -60,6 +60,7 @@ TEST(ParseObj, ReadsColors) {
   PolygonMesh expected = triangle();
   expected.point_colors = {red, red, {255, 0, 0, 51}};
   expect_same(parse_obj("v 0 0 0 1. 0 0\nv 1 0 0 1 0 0 1\nv 0 1 0 1.0 0 0 0.2\nf 1 2 3\n", "a"), expected);
+  expect_same(parse_obj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0 .2\nf 1 2 3\n", "a"), expected);
   expect_same(parse_obj("v 0 0 0 255 0 0\nv 1 0 0 255 0 0\nv 0 1 0 255 0 0 51\nf 1 2 3\n", "a"), expected);
 }
 

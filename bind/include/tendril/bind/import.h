@@ -27,6 +27,7 @@
 /// - PLY: header lines that begin with an unknown word; values in a text line beyond the declared ones (and
 ///   then the colors and normals there are dropped); bytes after the end; LF CR at the end of lines;
 /// - OBJ: lines that begin with an unknown word; STL: bytes after the end.
+/// What OBJ and STL hold beyond a mesh, as said below, is told too, and never refused.
 ///
 /// Time is linear in the bytes. Memory is bounded by the bytes present: counts in a header reserve no more
 /// than the rest of the file could fill. The result depends neither on the locale nor on the machine's byte
@@ -67,7 +68,8 @@ TENDRIL_BIND_API PolygonMesh parse_ply(std::string_view bytes, const std::string
 
 /// Wavefront OBJ [Alias 1992], its polygons: v, vn, vt, f; '#' comments, a backslash that stands alone at the
 /// end of a line continues it.
-/// - v: x y z, then nothing, a weight (not used), or a color of 3 or 4 numbers as in OFF.
+/// - v: x y z, then nothing, a weight (not used), or a color of 3 or 4 numbers: 0..1, or 0..255 where one of
+///   them exceeds 1.
 /// - f: corners v, v/vt, v//vn, v/vt/vn, counted from 1, or from -1 backwards from the line; also of lines to
 ///   come.
 /// - Normals are kept where each point has one. Texture coordinates are the points' where each has one pair,

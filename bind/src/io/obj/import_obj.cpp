@@ -128,14 +128,13 @@ class ObjReader {
     mesh_.points.push_back(p);
     if (in_.line_done()) return colors_.add_none();  // the most frequent by far
     std::array<double, 4> rest{};
-    std::array<bool, 4> fraction{};
+    constexpr std::array<bool, 4> fraction{true, true, true, true};  // "1 0 0" is red, not nearly black
     std::size_t count = 0;
     for (; !in_.line_done(); ++count) {
       double value = 0;
       if (!in_.take_number(value) || !std::isfinite(value)) return refuse_rest(in_.found() + " is no number");
       if (count == 4) return refuse_rest("the value " + in_.found() + " is one too many in its line");
       rest[count] = value;
-      fraction[count] = in_.last_has_fraction();
     }
     if (count == 1) return colors_.add_none();  // a weight, which curves alone have a use for
     if (count == 2) return refuse_rest("5 values in a vertex' line");

@@ -22,7 +22,6 @@ class ObjLines {
   /// The same, as a number; false when it is none.
   bool take_number(double& value) { return in_.take_number(value); }
   double number() { return in_.number(); }
-  bool last_has_fraction() const { return in_.last_has_fraction(); }
   void pass_line() {
     while (!line_done()) token();
   }
