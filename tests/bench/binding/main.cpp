@@ -9,5 +9,6 @@ int main(int argc, char** argv) {
                     {"transpose", "transpose", transpose_section},
                     {"projection", "projection", projection_section},
                     {"reading", "reading", reading_section},
+                    {"tree", "tree", tree_section},
                     {"judging", "judging", judging_section}});
 }

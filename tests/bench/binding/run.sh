@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12), builds the bench of bindings, projections, readers and judges and runs it on one thread;
 # some minutes. The exit code is the bench's: 1 when a result is wrong, never for being slow.
-#   tests/bench/binding/run.sh [--quick] [--json FILE] [--only update|transpose|projection|reading|judging]
+#   tests/bench/binding/run.sh [--quick] [--json FILE] [--only update|transpose|projection|reading|tree|judging]
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 . .cmake/packages.sh

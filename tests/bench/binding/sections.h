@@ -13,6 +13,7 @@ OrderedJson update_section(Settings& settings);
 OrderedJson transpose_section(Settings& settings);
 OrderedJson projection_section(Settings& settings);
 OrderedJson reading_section(Settings& settings);
+OrderedJson tree_section(Settings& settings);
 OrderedJson judging_section(Settings& settings);
 
 /// A cubic axis with `spans` equal spans, about 10 long, with waves; and a pose of it.
