@@ -57,9 +57,8 @@ void Binding::velocities(std::span<const CurvePair> posed, std::span<const Curve
   layout.require_same_knots(rates);
   if (out.size() != points.size())
     throw InvalidInput("out", std::to_string(out.size()) + " entries", std::to_string(points.size()));
-  std::vector<MovingPiece> pieces;
-  pieces.reserve(layout.spans.size());
-  for (const Span& span : layout.spans) pieces.push_back(moving_piece(span, posed, rates));
+  const auto make = [&](std::uint32_t span) { return moving_piece(layout.spans[span], posed, rates); };
+  OnDemand<MovingPiece, decltype(make)> pieces(layout.spans.size(), make);
   const auto one = [&](const Order& order, const Records<double>& records, std::size_t slot) {
     const MovingPiece& piece = pieces[order.run_of(slot).span];
     double u, v;

@@ -157,9 +157,10 @@ Triple<T> Evaluator<T>::one(std::size_t point) const {
 template <class T>
 template <class Row>
 void Evaluator<T>::some(std::span<const std::uint32_t> points, Row* out) const {
-  const Pieces pieces = pose<T>(layout_.spans, posed_);
+  auto pieces = on_demand<T>(layout_.spans, posed_);
+  const auto piece_of = [&](std::uint32_t span) -> const Piece<T>& { return pieces[span]; };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Triple<T> p = one(points[i], [&](std::uint32_t span) -> const Piece<T>& { return pieces[span]; });
+    const Triple<T> p = one(points[i], piece_of);
     out[i] = Row(p.x, p.y, p.z);
   }
 }

@@ -82,15 +82,15 @@ void add_to_controls(const Span& span, const Piece<double>& piece, const Moments
   to.primary[span.reference()] += base;
 }
 
-std::vector<ControlForces> to_controls(const BindingLayout& layout, const std::vector<Piece<double>>& pieces,
-                                       const std::vector<Moments>& moments) {
+/// On every pair's control points; \param add  adds those of each span that has any
+template <class Add>
+std::vector<ControlForces> to_controls(const BindingLayout& layout, const Add& add) {
   std::vector<ControlForces> result;
   for (const KnotVector& knots : layout.knots) {
     const std::vector<Vec3> none(static_cast<std::size_t>(knots.control_points()), Vec3::Zero());
     result.push_back({none, none});
   }
-  for (std::size_t s = 0; s < layout.spans.size(); ++s)
-    add_to_controls(layout.spans[s], pieces[s], moments[s], result[layout.spans[s].pair]);
+  for (std::uint32_t s = 0; s < layout.spans.size(); ++s) add(s, result[layout.spans[s].pair]);
   return result;
 }
 
@@ -119,7 +119,9 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed, 
         },
         moments);
   }
-  return to_controls(layout, pieces, moments);
+  return to_controls(layout, [&](std::uint32_t s, ControlForces& to) {
+    add_to_controls(layout.spans[s], pieces[s], moments[s], to);
+  });
 }
 
 std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
@@ -127,15 +129,15 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
   const BindingLayout& layout = *layout_;
   layout.require_same_knots(posed);
   check(forces, points.size(), 1);
-  const auto pieces = pose<double>(layout.spans, posed);
-  std::vector<Moments> moments(pieces.size());
+  auto pieces = on_demand<double>(layout.spans, posed);
+  std::vector<Moments> moments(layout.spans.size());
   const auto add = [&](const Order& order, const Records<double>& records, std::size_t slot, const Vec3& f) {
     const std::uint32_t span = order.run_of(slot).span;
     double u, v;
     const RecordsView<double> given = records.from(slot);
-    const RecordsView<double> one =
-        pieces[span].turned ? turn_records(pieces[span], given, 1, &u, &v) : given;
-    add_moments(pieces[span], one, {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
+    const Piece<double>& piece = pieces[span];
+    const RecordsView<double> one = piece.turned ? turn_records(piece, given, 1, &u, &v) : given;
+    add_moments(piece, one, {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);
@@ -146,7 +148,9 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
     for (std::size_t k = blend->begin; k < blend->end; ++k)
       add(layout.others, layout.numbers.others, layout.other_slot[k], layout.share[k] * forces[i]);
   }
-  return to_controls(layout, pieces, moments);
+  return to_controls(layout, [&](std::uint32_t s, ControlForces& to) {
+    if (pieces.has(s)) add_to_controls(layout.spans[s], pieces[s], moments[s], to);
+  });
 }
 
 }  // namespace tendril::bind

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "records.h"
@@ -52,6 +53,35 @@ Piece<T> pose(const Span& span, const CurvePair& posed);
 template <class T>
 RecordsView<T> turn_records(const Piece<T>& piece, const RecordsView<T>& records, std::size_t count, T* u,
                             T* v);
+
+/// What is asked for of spans, made when it first is: few of many where little of a large mesh is wanted.
+template <class Made, class Make>
+class OnDemand {
+ public:
+  /// \param make  of a span's index
+  OnDemand(std::size_t spans, Make make) : make_(std::move(make)), number_(spans, 0) { made_.reserve(spans); }
+
+  const Made& operator[](std::uint32_t span) {
+    if (number_[span] == 0) {
+      made_.push_back(make_(span));
+      number_[span] = static_cast<std::uint32_t>(made_.size());
+    }
+    return made_[number_[span] - 1];
+  }
+  bool has(std::uint32_t span) const { return number_[span] != 0; }
+
+ private:
+  Make make_;
+  std::vector<std::uint32_t> number_;  ///< per span: one more than its place among the made, or 0
+  std::vector<Made> made_;             ///< with room for all, so that they stay where they are
+};
+template <class T>
+auto on_demand(const std::vector<Span>& spans, std::span<const CurvePair> posed) {
+  const auto make = [&spans, posed](std::uint32_t span) {
+    return pose<T>(spans[span], posed[spans[span].pair]);
+  };
+  return OnDemand<Piece<T>, decltype(make)>(spans.size(), make);
+}
 
 template <class T>
 std::vector<Piece<T>> pose(const std::vector<Span>& spans, std::span<const CurvePair> posed) {

@@ -22,6 +22,14 @@ ColumnsView<T> view(const Columns<T>& out, std::size_t size) {
   return {out.x.data(), out.y.data(), out.z.data()};
 }
 
+/// All points in the mesh's order: an update has the same bits, at a tenth of the price.
+bool are_all(std::span<const std::uint32_t> points, std::size_t size) {
+  if (points.size() != size) return false;
+  for (std::size_t i = 0; i < size; ++i)
+    if (points[i] != i) return false;
+  return true;
+}
+
 Evaluator<double> evaluator(const BindingLayout& layout, std::span<const CurvePair> posed) {
   return {layout, layout.numbers, posed};
 }
@@ -55,6 +63,7 @@ Vec3 Binding::at(const CurvePair& posed, std::size_t point) const {
 void Binding::at(std::span<const CurvePair> posed, std::span<const std::uint32_t> points,
                  MutablePoints out) const {
   require("out", out.size(), points.size());
+  if (are_all(points, size())) return update(posed, out);
   evaluator(*layout_, posed).some(points, out.data());
 }
 

@@ -44,7 +44,12 @@ std::vector<CurvePair> RodPoints::rates(const StateView& state) const {
 
 void RodPoints::add_loads(const StateView& state, std::span<const ControlForces> forces,
                           const Loads& loads) const {
-  for (std::size_t i = 0; i < rods_.size(); ++i) curves_.add_loads(state, rods_[i], forces[i], loads);
+  const auto none = [](const std::vector<Vec3>& all) {
+    return std::all_of(all.begin(), all.end(), [](const Vec3& f) { return f.isZero(0.0); });
+  };
+  for (std::size_t i = 0; i < rods_.size(); ++i)
+    if (!none(forces[i].primary) || !none(forces[i].orientation))
+      curves_.add_loads(state, rods_[i], forces[i], loads);
 }
 
 }  // namespace tendril
