@@ -3,7 +3,7 @@
 #include <tendril/collision/box_tree.h>
 #include <tendril/exact/shape.h>
 
-#include "sheets.h"
+#include "leaf.h"
 
 namespace tendril::test {
 

@@ -95,4 +95,34 @@ inline Shown shown_of(const std::vector<Rod>& rods, Random& random, double by, d
   return s;
 }
 
+/// A leaf or several, each about a rod of its own, in one mesh.
+struct Sheets {
+  std::vector<Rod> rods;
+  Leaf mesh;
+
+  /// Adds a leaf about a straight rod: moved and turned as said.
+  void add(const Leaf& leaf, const Rod& rod, const Vec3& by, const Mat3& turned = Mat3::Identity()) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Vec3& x : leaf.points) mesh.points.push_back(turned * x + by);
+    for (const auto& [a, b, c] : leaf.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+    rods.push_back(rod);
+    for (Vec3& x : rods.back().p) x = turned * x + by;
+    for (Vec3& x : rods.back().q) x = turned * x + by;
+  }
+  contact::ContactSurface surface(double skin) const { return surface_on(rods, mesh, skin); }
+};
+
+inline Mat3 about_z(double angle) {
+  return Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+}
+
+/// Two leaves, one across the other and so far above it.
+inline Sheets crossed(double height, double angle = 1.3) {
+  Sheets sheets;
+  const Rod rod = straight_rod(8, 1e6, 0.01, 400.0);
+  sheets.add(leaf(1.0, 0.15, 14, 3), rod, Vec3::Zero());
+  sheets.add(leaf(1.0, 0.15, 14, 3), rod, Vec3(0.4, -0.4 * angle, height), about_z(angle));
+  return sheets;
+}
+
 }  // namespace tendril::test

@@ -55,14 +55,14 @@ struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 /// come to, is refused. Linear momentum is kept, angular momentum but for friction, which acts on either
 /// side where it is, not where the skins meet.
 ///
-/// Vertices are deformed only where something is near: pairs are sought now and then, within a distance that
-/// bounds on the motion of spans of curve-pairs (span by span, each seen from a frame that goes with it) say
-/// nothing has crossed since, and looked at where these let them have come within the range.
+/// Vertices are deformed only where something is near: patches of some 16 triangles that could meet are
+/// sought now and then, and looked at where bounds on the motion of parts of spans of curve-pairs (by
+/// masses nearby, then by curves, each part seen from a frame that goes with it) let them have come within
+/// the range.
 ///
-/// Cost: of an evaluation some 0.2 us a curve-pair where masses moved too little for anything to have come
-/// within the range, else some 2 us, and what is near; of a search, every dozen steps or so, an update of the
-/// mesh and some 0.1 us a triangle. Implicit steps couple all nodes of these rods, up to some 400, and take
-/// differences.
+/// Cost: of an evaluation some 0.2 us a curve-pair, some 4 us for each that may have come near another, and
+/// what is near; of a search, every dozen steps or so, an update of the mesh and some 0.1 us a triangle.
+/// Implicit steps couple all nodes of these rods, up to some 400, and take differences.
 class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {
  public:
   /// Throws InvalidInput for numbers and indices out of range, and a mesh without area.

@@ -4,180 +4,182 @@
 #include <cmath>
 #include <utility>
 
-#include "contact/surfaces/surface_points.h"
-
 namespace tendril::contact {
+namespace {
 
-SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
-    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {
-  std::vector<std::vector<std::vector<double>>> interpolation;
-  for (const std::size_t rod : points().rods()) interpolation.push_back(points().curves().interpolation(rod));
-  for (const UsedSpan& span : mesh.spans) gains.push_back(gain_of(span, interpolation[span.pair]));
+/// Curves of masses farther than this from the origin could overflow.
+constexpr double kMost = 1e150;
+
+bool fits(Points points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const Vec3& x) { return x.cwiseAbs().maxCoeff() < kMost; });
 }
 
-SelfNodes SelfModel::nodes(const StateView& state) const {
-  SelfNodes result;
-  for (const std::size_t rod : points().rods()) {
-    const std::vector<Vec3> arms = points().curves().arms(state, rod);
-    const Points p = state.p.subspan(state.rods[rod].first, arms.size());
-    result.p.insert(result.p.end(), p.begin(), p.end());
-    result.arm.insert(result.arm.end(), arms.begin(), arms.end());
+}  // namespace
+
+PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept)
+    : model_(model), state_(state), kept_(kept), scratch_(model.take_scratch()) {
+  const std::size_t n = model.rods();
+  bounded_.resize(n, By::rod);
+  for (std::size_t rod = 0; rod < n; ++rod) {
+    arms_.push_back(model.points().curves().arms(state, model.points().rods()[rod]));
+    sound_ = sound_ && fits(masses(rod)) && fits(arms_.back());
   }
-  return result;
-}
-
-std::vector<double> SelfModel::coarse_motions(const SelfPose& before, const SelfNodes& then,
-                                              const StateView& now) const {
-  std::vector<RodMotion> rods;
-  std::size_t first = 0;
-  for (const std::size_t rod : points().rods()) {
-    const std::vector<Vec3> arms = points().curves().arms(now, rod);
-    const Points p = now.p.subspan(now.rods[rod].first, arms.size());
-    RodMotion most;
-    Vec3 last = Vec3::Zero();
-    for (std::size_t i = 0; i < arms.size(); ++i) {
-      const Vec3 way = p[i] - then.p[first + i];
-      most.mass = std::max(most.mass, way.squaredNorm());
-      if (i > 0) most.edge = std::max(most.edge, (way - last).squaredNorm());
-      most.arm = std::max(most.arm, (arms[i] - then.arm[first + i]).squaredNorm());
-      most.size = std::max({most.size, p[i].squaredNorm(), then.p[first + i].squaredNorm()});
-      last = way;
-    }
-    rods.push_back({std::sqrt(most.mass), std::sqrt(most.edge), std::sqrt(most.arm), std::sqrt(most.size)});
-    first += arms.size();
-  }
-  std::vector<double> result;
-  for (std::size_t i = 0; i < mesh.spans.size(); ++i)
-    result.push_back(motion(gains[i], mesh.spans[i], before.shapes[i], rods[mesh.spans[i].pair]));
-  return result;
-}
-
-SelfPose SelfModel::pose(std::vector<CurvePair> pairs) const {
-  SelfPose result{std::move(pairs), {}, {}};
-  for (const UsedSpan& span : mesh.spans) {
-    result.shapes.push_back(shape_of(span, result.pairs[span.pair]));
-    result.going.push_back(going_with(span, result.pairs[span.pair]));
-  }
-  return result;
-}
-
-std::vector<double> SelfModel::motions(const SelfPose& before, std::span<const CurvePair> now) const {
-  std::vector<double> result;
-  result.reserve(mesh.spans.size());
-  for (std::size_t i = 0; i < mesh.spans.size(); ++i) {
-    const UsedSpan& span = mesh.spans[i];
-    result.push_back(motion(span, before.shapes[i], before.pairs[span.pair], before.going[i], now[span.pair],
-                            going_with(span, now[span.pair])));
-    if (!(result.back() < kInfinite)) result.back() = measured(i, before.pairs, now);
-  }
-  return result;
-}
-
-/// Where a curve turns round within a span, bounds by its Bezier points say nothing, and an infinite one
-/// would refuse a state that is sound: what is bound to it is placed twice.
-double SelfModel::measured(std::size_t span, std::span<const CurvePair> before,
-                           std::span<const CurvePair> now) const {
-  const std::vector<std::uint32_t>& vertices = mesh.bound_to[span];
-  std::vector<Vec3> was(vertices.size()), is(vertices.size());
-  points().points().place(before, vertices, was);
-  points().points().place(now, vertices, is);
-  double most = 0.0;
-  for (std::size_t i = 0; i < is.size(); ++i) most = std::max(most, (is[i] - was[i]).norm());
-  return most * (1.0 + 1e-9);
-}
-
-double SelfModel::of_patch(std::uint32_t patch, std::span<const double> motions) const {
-  double most = 0.0;
-  for (const std::uint32_t span : mesh.patches[patch].spans) most = std::max(most, motions[span]);
-  return most;
-}
-
-std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
-  std::vector<std::uint32_t> all(surface.rest.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  std::vector<Vec3> result(all.size());
-  points().points().place(pairs, all, result);
-  return result;
-}
-
-PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept, bool curves)
-    : model_(model), state_(state), kept_(kept) {
-  if (!curves && nothing_near()) return;
-  pairs_ = model.points().pairs(state);
-  sound_ = !pairs_.empty();
   if (!sound_) return;
-  choose_list();
-  if (!sound_) return;
-  wake();
-  place();
+  if (kept_)
+    look();
+  else
+    search();
+  if (sound_) place();
 }
 
-/// A first look, at masses and directors alone: in most evaluations of most scenes nothing is near, and
-/// making the curves of all rods would cost more than their dynamics.
-bool PosedSelf::nothing_near() {
-  if (!kept_) return false;
-  motions_ = model_.coarse_motions(kept_->pose, kept_->nodes, state_);
-  for (std::size_t i = 0; i < motions_.size(); ++i)
-    if (!(kept_->since_search[i] + motions_[i] <= kept_->list->margin[i])) return false;
-  list_ = kept_->list;
-  for (std::size_t g = 0; g < list_->groups.size(); ++g)
-    if (!(kept_->slack[g] > moved(list_->groups[g]))) return false;
-  return true;
+Points PosedSelf::masses(std::size_t rod) const {
+  return state_.p.subspan(state_.rods[model_.points().rods()[rod]].first, arms_[rod].size());
 }
 
-/// That of the ledger while margins hold; else a new one for this state alone, wide enough for what has moved
-/// since the ledger was kept: what has passed by on the way is as much a meeting as what is near now.
-void PosedSelf::choose_list() {
-  double most = 0.0;
-  if (kept_) {
-    motions_ = model_.motions(kept_->pose, pairs_);
-    bool holds = true;
-    for (std::size_t i = 0; i < motions_.size(); ++i) {
-      most = std::max(most, motions_[i]);
-      holds = holds && kept_->since_search[i] + motions_[i] <= kept_->list->margin[i];
-    }
-    if (holds) {
-      list_ = kept_->list;
-      return;
+const CurvePair& PosedSelf::curve(std::size_t rod) {
+  if (made_.empty()) made_.resize(arms_.size(), 0);
+  if (!std::exchange(made_[rod], 1)) set(scratch_->now[rod], rod, masses(rod), arms_[rod]);
+  return scratch_->now[rod];
+}
+
+const CurvePair& PosedSelf::kept_curve(std::size_t rod) {
+  set(scratch_->before[rod], rod, kept_->p[rod], kept_->arm[rod]);
+  return scratch_->before[rod];
+}
+
+/// As RodCurves::pair, into what is there.
+void PosedSelf::set(CurvePair& curve, std::size_t rod, Points p, Points arm) const {
+  std::vector<Vec3> q(arm.begin(), arm.end());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = p[i] + q[i];
+  const CurvePair at = model_.points().curves().through(model_.points().rods()[rod], p, q);
+  curve.set_control_points(at.primary().control_points(), at.orientation().control_points());
+}
+
+std::span<const double> PosedSelf::motions(std::size_t rod, By by) {
+  if (motions_.empty()) motions_.resize(model_.mesh.spans.size(), 0.0);
+  if (bounded_[rod] >= by) return motions_;
+  bounded_[rod] = by;
+  if (by == By::masses)
+    model_.local_motions(rod, *kept_->base[rod], masses(rod), arms_[rod], motions_);
+  else
+    model_.motions(rod, *kept_->base[rod], curve(rod), motions_);
+  return motions_;
+}
+
+bool PosedSelf::stays(std::size_t rod) {
+  coarse_.push_back(model_.coarse_motion(rod, *kept_->base[rod], masses(rod), arms_[rod]));
+  if (coarse_.back() <= kept_->rod_room[rod]) return true;
+  const std::span<const double> motions = this->motions(rod, By::masses);
+  return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(),
+                     [&](std::uint32_t span) { return motions[span] <= kept_->room[span]; });
+}
+
+/// Masses first: in most evaluations most rods moved too little for anything to be near, and making their
+/// curves would cost more than their dynamics.
+void PosedSelf::look() {
+  std::vector<std::uint32_t> moving;
+  for (std::uint32_t rod = 0; rod < arms_.size(); ++rod)
+    if (!stays(rod)) moving.push_back(rod);
+  for (const std::uint32_t rod : moving) {
+    if (within_margins(rod)) continue;
+    const std::span<const double> motions = this->motions(rod, By::curves);
+    for (const std::uint32_t span : model_.spans_of[rod]) sound_ = sound_ && motions[span] < kInfinite;
+    if (!sound_ || !within_margins(rod)) return search();
+  }
+  if (!moving.empty()) wake(moving);
+}
+
+bool PosedSelf::within_margins(std::size_t rod) const {
+  return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(), [&](std::uint32_t span) {
+    return kept_->since[span] + motions_[span] <= kept_->list->margin[span];
+  });
+}
+
+/// What no moving rod has a part in has no more than both rooms. By masses first, then by curves.
+void PosedSelf::wake(const std::vector<std::uint32_t>& moving) {
+  for (std::size_t rod = 0; rod < bounded_.size(); ++rod)
+    if (bounded_[rod] == By::rod)
+      for (const std::uint32_t span : model_.spans_of[rod]) motions_[span] = coarse_[rod];
+  const auto asleep = [&](std::uint32_t group) {
+    const SelfGroup& of = kept_->list->groups[group];
+    return kept_->slack(group) > model_.of_patch(of.p, motions_) + model_.of_patch(of.q, motions_);
+  };
+  for (const std::uint32_t rod : moving)
+    for (const std::uint32_t group : kept_->list->with(rod))
+      if (!asleep(group)) awake_.push_back(group);
+  if (awake_.empty()) return;
+  std::sort(awake_.begin(), awake_.end());
+  awake_.erase(std::unique(awake_.begin(), awake_.end()), awake_.end());
+  const std::vector<char> near = rods_of_awake();
+  for (std::size_t rod = 0; rod < near.size(); ++rod)
+    if (near[rod]) motions(rod, By::curves);
+  awake_.erase(std::remove_if(awake_.begin(), awake_.end(), asleep), awake_.end());
+}
+
+/// For this state alone, and wide enough for what has moved since the ledger was kept: what has passed by on
+/// the way is as much a meeting as what is near now.
+void PosedSelf::search() {
+  std::vector<double> moved(model_.mesh.spans.size(), 0.0), then = moved;
+  for (std::size_t rod = 0; rod < arms_.size() && kept_ && model_.barrier(); ++rod) {
+    model_.motions(rod, *kept_->base[rod], kept_curve(rod), then);
+    const std::span<const double> now = motions(rod, By::curves);
+    for (const std::uint32_t span : model_.spans_of[rod]) {
+      moved[span] = then[span] + now[span];
+      sound_ = sound_ && moved[span] < kInfinite;
     }
   }
-  sound_ = most < kInfinite;
   if (!sound_) return;
-  const std::vector<Vec3> at = model_.place(pairs_);
+  for (std::size_t rod = 0; rod < arms_.size(); ++rod) curve(rod);
+  const std::vector<Vec3> at = model_.place(pairs());
   sound_ = all_finite(at);
   if (!sound_) return;
-  const bool wide = model_.barrier() && kept_;
-  list_ = model_.search({}, at, wide ? motions_ : std::vector<double>(model_.mesh.spans.size(), 0.0));
-  fresh_ = true;
+  own_ = model_.search(at, std::move(moved));
+  for (std::uint32_t g = 0; g < own_->groups.size(); ++g) awake_.push_back(g);
 }
 
-double PosedSelf::moved(const SelfGroup& group) const {
-  if (motions_.empty()) return 0.0;
-  return model_.of_patch(group.p, motions_) + model_.of_patch(group.q, motions_);
+std::vector<char> PosedSelf::rods_of_awake() const {
+  std::vector<char> of(arms_.size(), 0);
+  for (const std::uint32_t g : awake_)
+    for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
+      for (const std::uint32_t rod : model_.rods_of[patch]) of[rod] = 1;
+  return of;
 }
 
-/// A list made here has no slacks of the ledger to compare with.
-void PosedSelf::wake() {
-  for (std::uint32_t g = 0; g < list_->groups.size(); ++g)
-    if (fresh_ || !(kept_->slack[g] > moved(list_->groups[g]))) awake_.push_back(g);
-}
-
-/// All vertices in one call: an update poses every span of every curve first.
+/// All vertices in one call, of the rods concerned alone.
 void PosedSelf::place() {
   if (awake_.empty()) return;
-  std::vector<char> wanted(list_->used.size(), 0);
-  for (const std::uint32_t g : awake_) {
-    const std::size_t begin = g == 0 ? 0 : list_->groups[g - 1].members;
-    for (std::size_t i = begin; i < list_->groups[g].members; ++i) wanted[list_->members[i]] = 1;
-  }
-  slot_.resize(model_.surface.rest.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (!wanted[i]) continue;
-    slot_[list_->used[i]] = static_cast<std::uint32_t>(vertices_.size());
-    vertices_.push_back(list_->used[i]);
-  }
+  const std::vector<char> wanted = rods_of_awake();
+  for (std::size_t rod = 0; rod < wanted.size(); ++rod)
+    if (wanted[rod]) curve(rod);
+  std::vector<char> seen(model_.surface.rest.size(), 0);
+  for (const std::uint32_t g : awake_)
+    for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
+      for (const std::uint32_t v : model_.mesh.patches[patch].corners)
+        if (!std::exchange(seen[v], 1)) vertices_.push_back(v);
+  std::sort(vertices_.begin(), vertices_.end());
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    scratch_->slot[vertices_[i]] = static_cast<std::uint32_t>(i);
   now_.resize(vertices_.size());
-  model_.points().points().place(pairs_, vertices_, now_);
+  model_.points().points().place(pairs(), vertices_, now_);
+}
+
+double PosedSelf::moved(const SelfGroup& group) {
+  if (!kept_) return 0.0;
+  const auto of_patch = [&](std::uint32_t patch) {
+    double most = 0.0;
+    for (const std::uint32_t v : model_.mesh.patches[patch].corners)
+      most = std::max(most, (at(v) - before(v)).squaredNorm());
+    return std::sqrt(most);
+  };
+  return (of_patch(group.p) + of_patch(group.q)) * (1.0 + 1e-9);
+}
+
+const NearGroup* PosedSelf::known(std::uint32_t group) {
+  if (own_ || !kept_) return nullptr;
+  const auto found = std::lower_bound(kept_->near.begin(), kept_->near.end(), group,
+                                      [](const NearGroup& near, std::uint32_t g) { return near.group < g; });
+  return found != kept_->near.end() && found->group == group ? &*found : nullptr;
 }
 
 /// From the ledger where it has them all.
@@ -193,20 +195,34 @@ const Vec3& PosedSelf::before(std::uint32_t vertex) {
       else
         missing.push_back(vertices_[i]);
     }
-    std::vector<Vec3> found(missing.size());
-    if (!missing.empty()) model_.points().points().place(kept_->pose.pairs, missing, found);
-    for (std::size_t i = 0; i < missing.size(); ++i) before_[slot_[missing[i]]] = found[i];
+    if (!missing.empty()) {
+      const std::vector<char> wanted = rods_of_awake();
+      for (std::size_t rod = 0; rod < wanted.size(); ++rod)
+        if (wanted[rod]) kept_curve(rod);
+      std::vector<Vec3> found(missing.size());
+      model_.points().points().place(scratch_->before, missing, found);
+      for (std::size_t i = 0; i < missing.size(); ++i) before_[slot(missing[i])] = found[i];
+    }
   }
-  return before_[slot_[vertex]];
+  return before_[slot(vertex)];
 }
 
 const Vec3& PosedSelf::velocity(std::uint32_t vertex) {
   if (velocity_.empty()) {
     velocity_.assign(vertices_.size(), Vec3::Zero());
-    const std::vector<CurvePair> rates = model_.points().rates(state_);
-    if (!rates.empty()) model_.points().points().velocities(pairs_, rates, vertices_, velocity_);
+    const std::vector<char> wanted = rods_of_awake();
+    bool fit = true;
+    for (std::size_t rod = 0; rod < wanted.size() && fit; ++rod) {
+      if (!wanted[rod]) continue;
+      const std::size_t index = model_.points().rods()[rod];
+      const NodeRange nodes{state_.rods[index].first, arms_[rod].size()};
+      fit = fits(state_.v.subspan(nodes.first, nodes.count)) &&
+            fits(state_.turn.subspan(nodes.first, nodes.count));
+      if (fit) scratch_->rates[rod] = model_.points().curves().rates(state_, index);
+    }
+    if (fit) model_.points().points().velocities(pairs(), scratch_->rates, vertices_, velocity_);
   }
-  return velocity_[slot_[vertex]];
+  return velocity_[slot(vertex)];
 }
 
 }  // namespace tendril::contact

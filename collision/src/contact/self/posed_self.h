@@ -13,17 +13,39 @@ struct SelfMeeting {
   Vec3 friction;      ///< on the first
 };
 
+/// What of two patches is near each other, and how near at the last accepted state.
+struct NearGroup {
+  std::uint32_t group;  ///< of the list's
+  std::shared_ptr<const SelfPairs> pairs;
+  std::vector<double> faces,
+      edges;    ///< slacks of the pairs: distance less that where response begins, or less
+  double left;  ///< how far they may move before others are as near
+};
+
 /// What is remembered besides what is told.
+///
+/// A vertex moves straight between accepted states, and so is never farther from where it was at a third one
+/// than at either end: bounds on how far what a rod holds is from where it was at `base` say what may have
+/// happened on the way, whenever base was. Bases move on as rods do; what they moved by adds up in `path`.
 struct SelfLedger final : SurfaceSelfMemory {
-  SelfPose pose;
-  SelfNodes nodes;
+  std::vector<std::vector<Vec3>> p, arm;  ///< per rod: masses, and orientation masses less them
+  RodPoses base, searched;                ///< searched: where rods were when the list was made
   std::shared_ptr<const SelfList> list;
-  std::vector<double> since_search;   ///< how far what each span holds moved at most
-  std::vector<double> slack;          ///< per group
-  PairSlacks pair_slack;              ///< of its pairs
+  std::vector<double> since;  ///< per span: how far its base is from where the list was made, at most
+  std::vector<double> path;   ///< per patch: how far its bases moved, added up
+  std::shared_ptr<const std::vector<double>> budget;  ///< per group: slack and both paths when last measured
+  std::vector<double> room;      ///< per span: within which of its base nothing comes near and the list holds
+  std::vector<double> rod_room;  ///< per rod: the least of its spans
+  long steps = 0;                ///< since the list was made
+  std::vector<NearGroup> near;   ///< what was looked at last, by ascending group
   std::vector<SelfMeeting> meetings;  ///< by ascending key
   std::vector<std::uint32_t> known;   ///< vertices that were placed, ascending
   std::vector<Vec3> at;               ///< where they are
+
+  double slack(std::uint32_t group) const {
+    const SelfGroup& of = list->groups[group];
+    return (*budget)[group] - path[of.p] - path[of.q];
+  }
 };
 
 inline const SelfLedger* self_ledger_of(const ForceMemory* memory) {
@@ -34,44 +56,67 @@ inline const SelfLedger* self_ledger_of(const ForceMemory* memory) {
 class PosedSelf {
  public:
   /// \param kept  null at the start
-  /// \param curves  whether they are wanted even where nothing is near
-  PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept, bool curves = false);
+  PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept);
+  ~PosedSelf() { model_.give_back(std::move(scratch_)); }
+  PosedSelf(const PosedSelf&) = delete;
+  PosedSelf& operator=(const PosedSelf&) = delete;
 
   /// False where its curves cannot be computed.
   bool sound() const { return sound_; }
-  std::vector<CurvePair>& pairs() { return pairs_; }
-  const SelfList& list() const { return *list_; }
-  std::shared_ptr<const SelfList> share_list() const { return list_; }
-  /// Groups of the list in which something could have come within the range.
+  /// The list that was made here, for this state alone; null where that of the ledger holds.
+  const SelfList* own_list() const { return own_.get(); }
+  const SelfList& list() const { return own_ ? *own_ : *kept_->list; }
+  /// Groups of the list in which something could have come within the range, ascending.
   std::span<const std::uint32_t> awake() const { return awake_; }
+  /// What the ledger knows of an awake group; null where it does not, or too little.
+  const NearGroup* known(std::uint32_t group);
   /// How far the vertices of a group moved at most since the ledger was kept, both patches' together.
-  double moved(const SelfGroup& group) const;
+  double moved(const SelfGroup& group);
+
+  Points masses(std::size_t rod) const;
+  const std::vector<Vec3>& arms(std::size_t rod) const { return arms_[rod]; }
+  const CurvePair& curve(std::size_t rod);
+  /// How a rod is bounded.
+  enum class By : char { rod, masses, curves };
+  By bounded(std::size_t rod) const { return bounded_[rod]; }
+  /// How far what it holds is from the ledger's base at most, by its masses as a whole.
+  double coarse(std::size_t rod) const { return coarse_[rod]; }
+  /// The same of its spans, at least by this; those of other rods may say anything.
+  std::span<const double> motions(std::size_t rod, By by);
 
   /// The vertices of awake groups, ascending, and where they are.
   std::span<const std::uint32_t> vertices() const { return vertices_; }
-  const Vec3& at(std::uint32_t vertex) const { return now_[slot_[vertex]]; }
-  std::size_t slot(std::uint32_t vertex) const { return slot_[vertex]; }
+  PlacedVertices placed() const { return {now_, scratch_->slot}; }
+  const Vec3& at(std::uint32_t vertex) const { return now_[slot(vertex)]; }
+  std::size_t slot(std::uint32_t vertex) const { return scratch_->slot[vertex]; }
   /// Where they were when the ledger was kept.
   const Vec3& before(std::uint32_t vertex);
   const Vec3& velocity(std::uint32_t vertex);
-  /// Bounds since the ledger was kept, per span; none at the start.
-  const std::vector<double>& motions() const { return motions_; }
+  /// On the knots of all rods; those that no awake vertex is bound to are anywhere.
+  std::span<const CurvePair> pairs() const { return scratch_->now; }
 
  private:
-  bool nothing_near();
-  void choose_list();
-  void wake();
+  void set(CurvePair& curve, std::size_t rod, Points p, Points arm) const;
+  bool stays(std::size_t rod);
+  void look();
+  bool within_margins(std::size_t rod) const;
+  void wake(const std::vector<std::uint32_t>& moving);
+  void search();
+  const CurvePair& kept_curve(std::size_t rod);
   void place();
+  std::vector<char> rods_of_awake() const;
 
   const SelfModel& model_;
   const StateView& state_;
   const SelfLedger* kept_;
   bool sound_ = true;
-  std::vector<CurvePair> pairs_;
-  std::vector<double> motions_;
-  std::shared_ptr<const SelfList> list_;
-  bool fresh_ = false;  ///< the list was made here
-  std::vector<std::uint32_t> awake_, vertices_, slot_;
+  std::vector<std::vector<Vec3>> arms_;
+  std::unique_ptr<SelfScratch> scratch_;
+  std::vector<char> made_;  ///< per rod: its curve
+  std::vector<double> coarse_, motions_;
+  std::vector<By> bounded_;  ///< per rod
+  std::shared_ptr<const SelfList> own_;
+  std::vector<std::uint32_t> awake_, vertices_;
   std::vector<Vec3> now_, before_, velocity_;
 };
 

@@ -14,6 +14,10 @@ namespace {
 /// patches than pairs of faces to be saved.
 constexpr std::size_t kMostFaces = 16;
 
+/// Parts of a span that are bounded each alone: a clamped leaf hardly moves where it is held, though the span
+/// that begins there does.
+constexpr int kParts = 4;
+
 using Faces = std::vector<std::uint32_t>;
 
 Vec3 middle(const ContactSurface& surface, std::uint32_t face) {
@@ -100,7 +104,7 @@ void SelfMesh::find_parts(const ContactSurface& surface) {
 }
 
 void SelfMesh::find_patches(const ContactSurface& surface) {
-  SpanList list(*surface.points, spans);
+  SpanList list(*surface.points, spans, kParts);
   std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, Faces> groups;
   for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
     std::vector<std::uint32_t> of;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include "contact/response.h"
 #include "self_mesh.h"
@@ -13,43 +14,56 @@ namespace tendril::contact {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// A vertex and a face, or two edges, that may come near each other.
+/// Where a rod was when what is bound to it was last bounded from its curves, and how it may be from there.
+/// "Rods" are those of RodPoints::rods(), by their place among them.
+struct RodPose {
+  std::vector<Vec3> p, arm;     ///< masses, and orientation masses less them
+  std::vector<SpanPose> spans;  ///< its spans
+  SpanShape worst;              ///< of all of them
+};
+using RodPoses = std::vector<std::shared_ptr<const RodPose>>;
+
+/// Two patches that may come near each other.
+struct SelfGroup {
+  std::uint32_t p, q;
+  double slack;  ///< their distance less that where response begins, or less, when searched
+};
+
+/// All pairs of patches that may come near each other while what each span holds moves by no more than its
+/// margin.
+struct SelfList {
+  std::vector<double> margin;  ///< per span
+  std::vector<SelfGroup> groups;
+  /// Per rod: groups with a patch of its, [begin[rod], begin[rod + 1]) of of_rod.
+  std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> of_rod;
+
+  std::span<const std::uint32_t> with(std::size_t rod) const {
+    return std::span(of_rod).subspan(begin[rod], begin[rod + 1] - begin[rod]);
+  }
+};
+
+/// A vertex of the mesh and a face, or two edges.
 struct SelfPair {
   std::uint32_t first, second;
 };
-/// Of every pair of a list: its distance less that where response begins, or less.
-struct PairSlacks {
-  std::vector<double> faces, edges;
+/// Of two patches, what is near each other.
+struct SelfPairs {
+  std::vector<SelfPair> faces, edges;
 };
 
-/// The pairs of two patches.
-struct SelfGroup {
-  std::uint32_t p, q;                 ///< patches
-  std::size_t faces, edges, members;  ///< ends in SelfList's arrays; each group begins where the last ended
-  double slack;                       ///< least distance less that where response begins, when searched
+/// Vertices that are placed, by their index in the mesh.
+struct PlacedVertices {
+  std::span<const Vec3> at;
+  std::span<const std::uint32_t> slot;  ///< of a vertex, in `at`
+
+  const Vec3& operator[](std::uint32_t vertex) const { return at[slot[vertex]]; }
 };
 
-/// Where the curves are, and how spans of them may be bounded from there.
-struct SelfPose {
-  std::vector<CurvePair> pairs;
-  std::vector<SpanShape> shapes;
-  std::vector<Placement> going;
-};
-
-/// Pairs that may come near each other while what each span holds moves by no more than its margin.
-struct SelfList {
-  SelfPose pose;               ///< when searched; empty in a list for one state alone
-  std::vector<double> margin;  ///< per span
-  std::vector<SelfGroup> groups;
-  std::vector<SelfPair> faces, edges;  ///< of vertices of the mesh and its faces; of its edges
-  PairSlacks slack;                    ///< when searched
-  std::vector<std::uint32_t> members;  ///< of a group's pairs, indices of `used`
-  std::vector<std::uint32_t> used;     ///< vertices of the mesh that any pair has, ascending
-};
-
-/// Masses of a surface's rods and their orientation masses less them, rod by rod.
-struct SelfNodes {
-  std::vector<Vec3> p, arm;
+/// What an evaluation needs room for: to have it made by each would cost more than what is in it.
+struct SelfScratch {
+  std::vector<CurvePair> now, before, rates;  ///< per rod; where it is not asked for, of any time
+  std::vector<std::uint32_t> slot;            ///< per vertex; likewise
 };
 
 struct SelfModel {
@@ -59,31 +73,51 @@ struct SelfModel {
   Law law;
   Meets which;
   SelfMesh mesh;
-  std::vector<SpanGain> gains;  ///< per span
+  std::vector<std::vector<std::uint32_t>> spans_of;    ///< per rod
+  std::vector<std::vector<std::uint32_t>> patches_of;  ///< per rod: what its spans hold a part of
+  std::vector<std::vector<std::uint32_t>> rods_of;     ///< per patch, ascending
+  std::vector<LocalGain> gains;                        ///< per span
+  std::vector<SpanGain> gain;                          ///< per rod: the largest of its spans
+  std::vector<double> reach;                           ///< likewise
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   const RodPoints& points() const { return *surface.points; }
+  std::size_t rods() const { return points().rods().size(); }
   double thick() const { return 2.0 * surface.skin; }
   double meets() const { return thick() + law.range; }
 
-  SelfPose pose(std::vector<CurvePair> pairs) const;
-  /// How far what each span holds moved at most.
-  std::vector<double> motions(const SelfPose& before, std::span<const CurvePair> now) const;
-  SelfNodes nodes(const StateView& state) const;
-  /// The same as motions(), coarser and without curves: 0.1 us a rod.
-  std::vector<double> coarse_motions(const SelfPose& before, const SelfNodes& then,
-                                     const StateView& now) const;
-  double measured(std::size_t span, std::span<const CurvePair> before, std::span<const CurvePair> now) const;
+  std::unique_ptr<SelfScratch> take_scratch() const;
+  void give_back(std::unique_ptr<SelfScratch> scratch) const;
+
+  RodPose pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const;
+  /// How far what a rod holds moved at most, by its masses alone: 0.1 us.
+  double coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const;
+  /// The same for each of its spans, by masses nearby; `motions` are those of all spans. 0.3 us.
+  void local_motions(std::size_t rod, const RodPose& from, Points p, Points arm,
+                     std::span<double> motions) const;
+  /// And by curves. Some us.
+  void motions(std::size_t rod, const RodPose& from, const CurvePair& now, std::span<double> motions) const;
   /// Of a patch: a blended vertex moves as a mean of the points it is made of.
   double of_patch(std::uint32_t patch, std::span<const double> motions) const;
-  /// Pairs nearer than where response begins and both margins. `at` are all vertices.
-  std::shared_ptr<const SelfList> search(SelfPose pose, std::span<const Vec3> at,
-                                         std::vector<double> margin) const;
+
+  /// Pairs of patches nearer than where response begins and both margins. `at` are all vertices.
+  std::shared_ptr<const SelfList> search(std::span<const Vec3> at, std::vector<double> margin) const;
+  /// What of two patches is within `far` of each other.
+  SelfPairs pairs(const SelfGroup& group, const PlacedVertices& at, double far) const;
+  double distance(const SelfPair& vertex_and_face, const PlacedVertices& at) const;
+  double edge_distance(const SelfPair& edges, const PlacedVertices& at) const;
+
   std::vector<Vec3> place(std::span<const CurvePair> pairs) const;
   /// Two places of one part that rest this near each other are left out.
   double left_out(double first_side, double second_side) const {
     return std::max(1.5 * meets(), first_side + second_side);
   }
+
+ private:
+  double far_at_most(std::size_t span, const RodPose& before, const CurvePair& now) const;
+
+  mutable std::mutex lock_;  ///< of what follows: a force is evaluated by several threads
+  mutable std::vector<std::unique_ptr<SelfScratch>> scratch_;
 };
 
 }  // namespace tendril::contact

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "contact/foot.h"
 #include "self_model.h"
 
 namespace tendril::contact {
@@ -10,23 +9,25 @@ namespace {
 
 using collision::Box;
 
+/// So often a direction is mended in which two patches are apart.
+constexpr int kRounds = 8;
+constexpr double kCloseEnough = 1.02;
+
 Box widened(Box box, double by) {
   return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};
 }
 
-/// Fills a list: parts by their boxes, patches of two parts by theirs, then pairs. What depends on the rest
-/// alone is asked for anew each time: to keep it for all pairs that rest near would take more room than the
-/// mesh.
+/// Fills a list: parts by their boxes, patches of two parts by theirs, then by what is about their corners.
 class SelfSearch {
  public:
   SelfSearch(const SelfModel& model, std::span<const Vec3> at, SelfList& list)
-      : model_(model), mesh_(model.mesh), at_(at), list_(list), of_group_(at.size(), 0) {}
+      : model_(model), mesh_(model.mesh), at_(at), list_(list) {}
 
   void run() {
     std::vector<Box> wide;
     for (const SelfPatch& patch : mesh_.patches) {
       boxes_.push_back(box_of(patch.corners, at_));
-      margin_.push_back(model_.of_patch(static_cast<std::uint32_t>(boxes_.size() - 1), list_.margin));
+      margin_.push_back(model_.of_patch(static_cast<std::uint32_t>(margin_.size()), list_.margin));
       wide.push_back(widened(boxes_.back(), 0.5 * model_.meets() + margin_.back()));
       if (model_.which == Meets::all) rest_.push_back(resting(patch));
     }
@@ -52,7 +53,7 @@ class SelfSearch {
     // In an order of their own, not of the trees: sums over groups are the same whatever the boxes were.
     std::sort(near.begin(), near.end());
     for (const auto& [p, q] : near) look(p, q);
-    number_members();
+    sort_by_rod();
   }
 
  private:
@@ -148,119 +149,77 @@ class SelfSearch {
     return sum / static_cast<double>(patch.corners.size());
   }
 
+  /// Patches that have a place in common have no distance by their corners.
   void look(std::uint32_t p, std::uint32_t q) {
-    const SelfPatch &first = mesh_.patches[p], &second = mesh_.patches[q];
-    far_ = far(p, q);
-    if (p != q && (parted_across(first, second) || parted_across(second, first))) return;
-    same_part_ = first.part == second.part;
-    slack_ = kInfinite;
-    const std::size_t faces = list_.faces.size(), edges = list_.edges.size();
-    faces_of(first, second, boxes_[q]);
-    if (p != q) faces_of(second, first, boxes_[p]);
-    edges_of(near_box(first, boxes_[q]), p == q ? first.edges : near_box(second, boxes_[p]), p == q);
-    if (list_.faces.size() == faces && list_.edges.size() == edges) return;
-    gather_members(faces, edges);
-    list_.groups.push_back(
-        {p, q, list_.faces.size(), list_.edges.size(), list_.members.size(), slack_ - model_.meets()});
+    const Vec3 gap = (boxes_[p].low - boxes_[q].high).cwiseMax(boxes_[q].low - boxes_[p].high).cwiseMax(0.0);
+    if (gap.norm() > far(p, q) * (1.0 + 1e-9)) return;
+    const double apart = p == q ? 0.0 : distance(mesh_.patches[p], mesh_.patches[q], far(p, q));
+    if (!(apart > far(p, q))) list_.groups.push_back({p, q, apart - model_.meets()});
   }
 
-  /// Across the middle face of the first: boxes about what is flat and aslant hold much besides.
-  bool parted_across(const SelfPatch& first, const SelfPatch& second) const {
-    const auto& [a, b, c] = model_.surface.triangles[first.faces[first.faces.size() / 2]];
-    const Vec3 n = (at_[b] - at_[a]).cross(at_[c] - at_[a]).stableNormalized();
-    double low = kInfinite, high = -kInfinite, other_low = kInfinite, other_high = -kInfinite;
+  /// How far the second lies behind the first along n, and the corners that say so.
+  struct Along {
+    double apart;
+    Vec3 from, to;
+  };
+  Along along(const SelfPatch& first, const SelfPatch& second, const Vec3& n) const {
+    Along result{0.0, Vec3::Zero(), Vec3::Zero()};
+    const Vec3 origin = at_[first.corners[0]];
+    double low = kInfinite, high = -kInfinite, size = 0.0;
     for (const std::uint32_t v : first.corners) {
-      const double at = n.dot(at_[v]);
-      low = std::min(low, at), high = std::max(high, at);
+      const double at = n.dot(at_[v] - origin);
+      if (at < low) low = at, result.to = at_[v];
     }
     for (const std::uint32_t v : second.corners) {
-      const double at = n.dot(at_[v]);
-      other_low = std::min(other_low, at), other_high = std::max(other_high, at);
+      const double at = n.dot(at_[v] - origin);
+      size = std::max(size, std::abs(at));
+      if (at > high) high = at, result.from = at_[v];
     }
-    const double enough = far_ * (1.0 + 1e-9);
-    return other_low - high > enough || low - other_high > enough;
-  }
-
-  void gather_members(std::size_t faces, std::size_t edges) {
-    for (; faces < list_.faces.size(); ++faces) {
-      gather(list_.faces[faces].first);
-      for (const std::uint32_t v : model_.surface.triangles[list_.faces[faces].second]) gather(v);
-    }
-    for (; edges < list_.edges.size(); ++edges)
-      for (const std::uint32_t e : {list_.edges[edges].first, list_.edges[edges].second})
-        for (const std::uint32_t v : mesh_.edges[e].end) gather(v);
-  }
-  void gather(std::uint32_t vertex) {
-    std::uint32_t& last = of_group_[vertex];
-    if (std::exchange(last, static_cast<std::uint32_t>(list_.groups.size() + 1)) <= list_.groups.size())
-      list_.members.push_back(vertex);
-  }
-
-  void number_members() {
-    std::vector<std::uint32_t> number(at_.size());
-    for (std::uint32_t v = 0; v < at_.size(); ++v) {
-      if (of_group_[v] == 0) continue;
-      number[v] = static_cast<std::uint32_t>(list_.used.size());
-      list_.used.push_back(v);
-    }
-    for (std::uint32_t& v : list_.members) v = number[v];
-  }
-
-  /// The vertices of one with the faces of the other.
-  void faces_of(const SelfPatch& of, const SelfPatch& with, const Box& box) {
-    const Box near = widened(box, far_);
-    for (const std::uint32_t v : of.vertices) {
-      if (!near.holds(at_[v])) continue;
-      for (const std::uint32_t f : with.faces) {
-        const auto& [a, b, c] = model_.surface.triangles[f];
-        if (v == a || v == b || v == c || !beside(at_[v], {at_[a], at_[b], at_[c]}, far_)) continue;
-        const double d = (at_[v] - foot_on({at_[a], at_[b], at_[c]}, at_[v]).point).norm();
-        if (!(d <= far_) || (same_part_ && rests_near(v, f))) continue;
-        slack_ = std::min(slack_, d);
-        list_.faces.push_back({v, f});
-        list_.slack.faces.push_back(d - model_.meets());
-      }
-    }
-  }
-  bool rests_near(std::uint32_t v, std::uint32_t f) const {
-    const auto& [a, b, c] = model_.surface.triangles[f];
-    const auto& rest = model_.surface.rest;
-    const double d = (rest[v] - foot_on({rest[a], rest[b], rest[c]}, rest[v]).point).norm();
-    return d < model_.left_out(mesh_.longest[v], mesh_.face_longest[f]);
-  }
-
-  std::vector<std::uint32_t> near_box(const SelfPatch& of, const Box& box) const {
-    const Box near = widened(box, far_);
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t e : of.edges) {
-      const Vec3 &a = at_[mesh_.edges[e].end[0]], &b = at_[mesh_.edges[e].end[1]];
-      if (near.meets({a.cwiseMin(b), a.cwiseMax(b)})) result.push_back(e);
-    }
+    result.apart = low - high - 1e-14 * (size + std::abs(low));
     return result;
   }
-  void edges_of(const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& second,
-                bool same) {
-    for (const std::uint32_t e : first)
-      for (const std::uint32_t f : second) {
-        if (same && f <= e) continue;
-        const auto& [a, b] = mesh_.edges[e].end;
-        const auto& [c, d] = mesh_.edges[f].end;
-        if (a == c || a == d || b == c || b == d || !beside(at_[a], at_[b], at_[c], at_[d], far_)) continue;
-        const double d_ef = distance(at_, e, f);
-        if (!(d_ef <= far_) || (same_part_ && edges_rest_near(e, f))) continue;
-        slack_ = std::min(slack_, d_ef);
-        list_.edges.push_back({e, f});
-        list_.slack.edges.push_back(d_ef - model_.meets());
-      }
+  Vec3 normal(const SelfPatch& patch) const {
+    const auto& [a, b, c] = model_.surface.triangles[patch.faces[patch.faces.size() / 2]];
+    return (at_[b] - at_[a]).cross(at_[c] - at_[a]).stableNormalized();
   }
-  bool edges_rest_near(std::uint32_t e, std::uint32_t f) const {
-    return distance(model_.surface.rest, e, f) <
-           model_.left_out(mesh_.edges[e].longest, mesh_.edges[f].longest);
+
+  /// A lower bound on the distance of two patches: by how much a plane across some direction parts them.
+  /// Tried are their normals, as boxes about what is flat and aslant hold much besides; then the direction
+  /// from the point of the hull of all differences that is known to be nearest to 0, which moves towards
+  /// each round's support point [Gilbert 1966].
+  /// \param enough  more need not be known
+  double distance(const SelfPatch& first, const SelfPatch& second, double enough) const {
+    double best = 0.0;
+    Vec3 between = middle(first, at_) - middle(second, at_);
+    for (const SelfPatch* patch : {&first, &second}) {
+      const Vec3 n = normal(*patch);
+      best = std::max(best, along(first, second, n.dot(between) < 0.0 ? Vec3(-n) : n).apart);
+      if (best > enough) return best;
+    }
+    for (int round = 0; round < kRounds && best <= enough; ++round) {
+      const double length = between.norm();
+      if (!(length > best * kCloseEnough)) break;
+      const Along here = along(first, second, between / length);
+      best = std::max(best, here.apart);
+      const Vec3 way = here.to - here.from - between;
+      const double square = way.squaredNorm();
+      if (!(square > 0.0)) break;
+      between += std::clamp(-between.dot(way) / square, 0.0, 1.0) * way;
+    }
+    return best;
   }
-  double distance(std::span<const Vec3> at, std::uint32_t e, std::uint32_t f) const {
-    const auto& [a, b] = mesh_.edges[e].end;
-    const auto& [c, d] = mesh_.edges[f].end;
-    return apart(feet_of(at[a], at[b], at[c], at[d]), at[a], at[b], at[c], at[d]).norm();
+
+  void sort_by_rod() {
+    std::vector<std::vector<std::uint32_t>> of(model_.rods());
+    for (std::uint32_t g = 0; g < list_.groups.size(); ++g)
+      for (const std::uint32_t patch : {list_.groups[g].p, list_.groups[g].q})
+        for (const std::uint32_t rod : model_.rods_of[patch])
+          if (of[rod].empty() || of[rod].back() != g) of[rod].push_back(g);
+    list_.begin.push_back(0);
+    for (const auto& groups : of) {
+      list_.of_rod.insert(list_.of_rod.end(), groups.begin(), groups.end());
+      list_.begin.push_back(list_.of_rod.size());
+    }
   }
 
   const SelfModel& model_;
@@ -269,20 +228,14 @@ class SelfSearch {
   SelfList& list_;
   std::vector<Box> boxes_;
   std::vector<Resting> rest_;
-  std::vector<double> margin_;           ///< per patch
-  std::vector<std::uint32_t> of_group_;  ///< per vertex: one more than the last group it was gathered for
-  // Of the two patches that are looked at:
-  double far_ = 0.0;  ///< how far from each other pairs may be
-  bool same_part_ = false;
-  double slack_ = 0.0;
+  std::vector<double> margin_;  ///< per patch
 };
 
 }  // namespace
 
-std::shared_ptr<const SelfList> SelfModel::search(SelfPose pose, std::span<const Vec3> at,
+std::shared_ptr<const SelfList> SelfModel::search(std::span<const Vec3> at,
                                                   std::vector<double> margin) const {
   auto list = std::make_shared<SelfList>();
-  list->pose = std::move(pose);
   list->margin = std::move(margin);
   SelfSearch(*this, at, *list).run();
   return list;

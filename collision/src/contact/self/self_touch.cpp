@@ -27,17 +27,8 @@ class SelfTouches {
       : model_(model), mesh_(model.mesh), surface_(surface), kept_(kept) {}
 
   SelfMeetings run() {
-    const auto& groups = surface_.list().groups;
-    const bool of_ledger = kept_ && surface_.share_list() == kept_->list;
-    const PairSlacks* slacks = of_ledger ? &kept_->pair_slack : nullptr;
     for (const std::uint32_t g : surface_.awake()) {
-      const SelfGroup before = g == 0 ? SelfGroup{} : groups[g - 1];
-      const double moved = moved_of(g);
-      far_ = model_.meets() + (model_.barrier() ? moved : 0.0);
-      for (std::size_t i = before.faces; i < groups[g].faces && !out_.closed; ++i)
-        if (!slacks || !(slacks->faces[i] > moved)) look_at_face(surface_.list().faces[i]);
-      for (std::size_t i = before.edges; i < groups[g].edges && !out_.closed; ++i)
-        if (!slacks || !(slacks->edges[i] > moved)) look_at_edges(surface_.list().edges[i]);
+      look_at(g);
       if (out_.closed) return std::move(out_);
     }
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
@@ -64,19 +55,21 @@ class SelfTouches {
     Vec3 by_first = Vec3::Zero(), by_second = Vec3::Zero();
   };
 
-  /// How far the two sides of a group's pairs moved together since the ledger was kept: what bounds say, or
-  /// what vertices did.
-  double moved_of(std::uint32_t g) {
-    const SelfList& list = surface_.list();
-    const double bound = surface_.moved(list.groups[g]);
-    // Where a step is so long that bounds would wake much that is far, vertices are worth placing twice.
-    if (!kept_ || bound < 4.0 * model_.law.range) return bound;
-    double most = 0.0;
-    for (std::size_t i = g == 0 ? 0 : list.groups[g - 1].members; i < list.groups[g].members; ++i) {
-      const std::uint32_t v = list.used[list.members[i]];
-      most = std::max(most, (at(v) - surface_.before(v)).squaredNorm());
-    }
-    return std::min(bound, 2.0 * std::sqrt(most) * (1.0 + 1e-9));
+  /// Pairs that the ledger knows, where they are still all that could be near; else those of the patches.
+  void look_at(std::uint32_t g) {
+    const SelfGroup& group = surface_.list().groups[g];
+    const double moved = surface_.moved(group);
+    far_ = model_.meets() + (model_.barrier() ? moved : 0.0);
+    const NearGroup* known = surface_.known(g);
+    if (known && known->left > moved) return look_at(*known->pairs, &known->faces, &known->edges, moved);
+    look_at(model_.pairs(group, surface_.placed(), far_), nullptr, nullptr, moved);
+  }
+  void look_at(const SelfPairs& pairs, const std::vector<double>* faces, const std::vector<double>* edges,
+               double moved) {
+    for (std::size_t i = 0; i < pairs.faces.size() && !out_.closed; ++i)
+      if (!faces || !((*faces)[i] > moved)) look_at_face(pairs.faces[i]);
+    for (std::size_t i = 0; i < pairs.edges.size() && !out_.closed; ++i)
+      if (!edges || !((*edges)[i] > moved)) look_at_edges(pairs.edges[i]);
   }
 
   const Vec3& at(std::uint32_t v) const { return surface_.at(v); }

@@ -10,10 +10,7 @@ namespace {
 
 using Column = std::array<Vec3, kMaxDegree + 1>;
 
-/// Bezier points of a span, of its derivative by a parameter of its own, and of n.
-struct Controls {
-  Column at, rate, offset;
-};
+using Controls = SpanControls;
 
 template <class Place>
 Controls controls(const UsedSpan& span, const CurvePair& pair, const Place& place) {
@@ -56,38 +53,50 @@ Vec3 mean(const Column& a, std::size_t count) {
   return sum;
 }
 
+SpanShape shape_of(const UsedSpan& span, const Controls& c);
+
 }  // namespace
 
 /// Bezier point k of a span [a, b] is its polar form at p - k times a and k times b [Ramshaw 1989], by de
 /// Boor's recurrence with another argument at each level.
-UsedSpan::UsedSpan(std::uint32_t of, const KnotVector& knots, int span)
+UsedSpan::UsedSpan(std::uint32_t of, const KnotVector& knots, int span, int part, int parts)
     : pair(of),
       first(static_cast<std::uint32_t>(span - knots.degree())),
       count(static_cast<std::uint32_t>(knots.degree() + 1)),
       bezier{} {
   const auto p = static_cast<std::size_t>(knots.degree());
   const std::span<const double> u = knots.knots();
+  const auto end = [&](int i) {
+    const double share = static_cast<double>(i) / parts;
+    return (1.0 - share) * u[first + p] + share * u[first + p + 1];
+  };
+  const double from = end(part), to = end(part + 1);
   for (std::size_t k = 0; k <= p; ++k)
     for (std::size_t unit = 0; unit <= p; ++unit) {
       std::array<double, kMaxDegree + 1> d{};
       d[unit] = 1.0;
       for (std::size_t r = 1; r <= p; ++r) {
-        const double at = u[r <= p - k ? first + p : first + p + 1];
+        const double at = r <= p - k ? from : to;
         for (std::size_t i = p; i >= r; --i) {
           const std::size_t j = first + i;
-          const double part = (at - u[j]) / (u[j + p - r + 1] - u[j]);
-          d[i] = (1.0 - part) * d[i - 1] + part * d[i];
+          const double share = (at - u[j]) / (u[j + p - r + 1] - u[j]);
+          d[i] = (1.0 - share) * d[i - 1] + share * d[i];
         }
       }
       bezier[k][unit] = d[p];
     }
 }
 
+SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
+  return shape_of(span, controls(span, pair, [](const Vec3& x) { return x; }));
+}
+
+namespace {
+
 /// c' lies in the hull of its Bezier points and so goes at least as far along their mean as the least of
 /// them does; n likewise along e, the part of its mean across that of c'. Of n' = n - (n . Z) Z along e
 /// that leaves at least min n . e - |n| max |Z . e|.
-SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
-  const Controls c = controls(span, pair, [](const Vec3& x) { return x; });
+SpanShape shape_of(const UsedSpan& span, const Controls& c) {
   const std::size_t rates = span.count - 1;
   const Vec3 along = mean(c.rate, rates).stableNormalized();
   const double speed = least_along(c.rate, rates, along);
@@ -99,8 +108,6 @@ SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
   if (!(speed > 0.0)) return {0.0, 0.0, longest};
   return {speed, least_along(c.offset, span.count, across) - longest * aside / speed, longest};
 }
-
-namespace {
 
 /// The largest changes of Bezier points of c, of c' and of n.
 struct Changes {
@@ -118,34 +125,111 @@ double turns(const SpanShape& shape, const Changes& most) {
 
 }  // namespace
 
-/// Weights of differences sum to 0, so that they are weights of edges: of edge j, less those of the masses up
-/// to j.
-SpanGain gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation) {
+namespace {
+
+/// Weights of a span's Bezier points by masses, and of the differences of two by edges. Weights of
+/// differences sum to 0, so that they are weights of edges: of edge j, less those of the masses up to j.
+struct Weights {
+  std::vector<std::vector<double>> at, rate;  ///< per Bezier point
+};
+Weights weights_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation) {
   const std::size_t n = interpolation.size();
-  SpanGain gain{0.0, 0.0};
-  std::vector<double> before;
+  Weights result;
   for (std::size_t k = 0; k < span.count; ++k) {
-    std::vector<double> row(n, 0.0);
+    std::vector<double> row(n, 0.0), edges(n, 0.0);
     for (std::size_t i = 0; i < span.count; ++i)
       for (std::size_t j = 0; j < n; ++j) row[j] += span.bezier[k][i] * interpolation[span.first + i][j];
-    double sum = 0.0, edges = 0.0, so_far = 0.0;
-    for (std::size_t j = 0; j < n; ++j) {
-      sum += std::abs(row[j]);
-      if (k == 0) continue;
-      so_far += row[j] - before[j];
-      if (j + 1 < n) edges += std::abs(so_far);
+    double so_far = 0.0;
+    for (std::size_t j = 0; k > 0 && j + 1 < n; ++j) {
+      so_far += row[j] - result.at.back()[j];
+      edges[j] = static_cast<double>(span.count - 1) * so_far;
     }
-    gain.at = std::max(gain.at, sum);
-    gain.rate = std::max(gain.rate, static_cast<double>(span.count - 1) * edges);
-    before = std::move(row);
+    result.at.push_back(std::move(row));
+    result.rate.push_back(std::move(edges));
   }
-  return {gain.at * (1.0 + 1e-9), gain.rate * (1.0 + 1e-9)};
+  return result;
 }
 
-double motion(const SpanGain& gain, const UsedSpan& span, const SpanShape& shape, const RodMotion& rod) {
+/// Rounding of these sums.
+constexpr double kUp = 1.0 + 1e-9;
+
+double sum_outside(const std::vector<double>& row, std::size_t first, std::size_t count) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < row.size(); ++j)
+    if (j < first || j >= first + count) sum += std::abs(row[j]);
+  return sum;
+}
+
+/// What masses farther away have less weight than this is lumped.
+constexpr double kFewWeigh = 0.01;
+
+}  // namespace
+
+SpanGain gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation) {
+  const Weights weights = weights_of(span, interpolation);
+  SpanGain gain{0.0, 0.0};
+  for (std::size_t k = 0; k < span.count; ++k) {
+    gain.at = std::max(gain.at, kUp * sum_outside(weights.at[k], 0, 0));
+    gain.rate = std::max(gain.rate, kUp * sum_outside(weights.rate[k], 0, 0));
+  }
+  return gain;
+}
+
+LocalGain local_gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation) {
+  const Weights weights = weights_of(span, interpolation);
+  LocalGain gain;
+  std::size_t first = interpolation.size(), last = 0;
+  for (std::size_t k = 0; k < span.count; ++k)
+    for (std::size_t j = 0; j < interpolation.size(); ++j)
+      if (std::abs(weights.at[k][j]) > kFewWeigh || std::abs(weights.rate[k][j]) > kFewWeigh)
+        first = std::min(first, j), last = std::max(last, j + 1);
+  gain.first = first;
+  gain.count = last - first;
+  for (std::size_t k = 0; k < span.count; ++k) {
+    for (std::size_t j = first; j < last; ++j) {
+      gain.at.push_back(kUp * std::abs(weights.at[k][j]));
+      gain.rate.push_back(kUp * std::abs(weights.rate[k][j]));
+    }
+    gain.all = std::max(gain.all, sum_outside(weights.at[k], 0, 0));
+    gain.at_rest = std::max(gain.at_rest, kUp * sum_outside(weights.at[k], first, gain.count));
+    gain.rate_rest = std::max(gain.rate_rest, kUp * sum_outside(weights.rate[k], first, gain.count));
+  }
+  return gain;
+}
+
+namespace {
+
+/// The largest over Bezier points.
+double weighed(const std::vector<double>& weights, std::size_t count, double rest, const double* motions,
+               double most) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < weights.size(); k += count) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < count; ++j) sum += weights[k + j] * motions[j];
+    largest = std::max(largest, sum);
+  }
+  return largest + rest * most;
+}
+
+}  // namespace
+
+double motion(const LocalGain& gain, const UsedSpan& span, const SpanShape& shape, const RodMotion& most,
+              const MassMotions& masses) {
+  const auto by = [&](const std::vector<double>& weights, double rest, const std::vector<double>& of,
+                      double largest) {
+    return weighed(weights, gain.count, rest, &of[gain.first], largest);
+  };
+  const double at = by(gain.at, gain.at_rest, masses.mass, most.mass);
+  const double rate = by(gain.rate, gain.rate_rest, masses.edge, most.edge);
+  const double arm = by(gain.at, gain.at_rest, masses.arm, most.arm);
+  return (at + span.reach * turns(shape, {at, rate, arm})) * kUp +
+         1e-12 * (gain.all * most.size + span.reach);
+}
+
+double motion(const SpanGain& gain, double reach, const SpanShape& shape, const RodMotion& rod) {
   const double at = gain.at * rod.mass;
-  return (at + span.reach * turns(shape, {at, gain.rate * rod.edge, gain.at * rod.arm})) * (1.0 + 1e-9) +
-         1e-12 * (gain.at * rod.size + span.reach);
+  return (at + reach * turns(shape, {at, gain.rate * rod.edge, gain.at * rod.arm})) * (1.0 + 1e-9) +
+         1e-12 * (gain.at * rod.size + reach);
 }
 
 double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& before, const PosedFrom& now) {
@@ -159,28 +243,49 @@ double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& bef
   return (widest(a.at, b.at, span.count) + span.reach * turned) * (1.0 + 1e-9) + 1e-12 * size;
 }
 
-Placement going_with(const UsedSpan& span, const CurvePair& pair) {
-  const Controls c = controls(span, pair, [](const Vec3& x) { return x; });
-  Placement result;
+namespace {
+
+/// In a frame that goes with it; any frame would do, and one that does not exist does nothing.
+SpanPose going_with(const UsedSpan& span, const CurvePair& pair) {
+  SpanPose result;
+  result.seen = controls(span, pair, [](const Vec3& x) { return x; });
+  Controls& c = result.seen;
   result.position = mean(c.at, span.count) / static_cast<double>(span.count);
   const Vec3 z = mean(c.rate, span.count - 1).stableNormalized();
   const Vec3 x = mean(c.offset, span.count).cross(z).stableNormalized();
-  // Any frame would do: one that does not exist does nothing.
   if (x.squaredNorm() > 0.5) result.rotation << x, z.cross(x), z;
+  const Mat3 back = result.rotation.transpose();
+  double radius = 0.0;
+  for (std::size_t i = 0; i < span.count; ++i) {
+    c.at[i] = back * (c.at[i] - result.position);
+    c.offset[i] = back * c.offset[i];
+    if (i + 1 < span.count) c.rate[i] = back * c.rate[i];
+    radius = std::max(radius, c.at[i].squaredNorm());
+  }
+  result.radius = std::sqrt(radius);
+  return result;
+}
+
+}  // namespace
+
+SpanPose pose_of(const UsedSpan& span, const CurvePair& pair) {
+  SpanPose result = going_with(span, pair);
+  result.shape = shape_of(span, result.seen);
   return result;
 }
 
 /// With x = P + R y before and x' = P' + R' y' now, x' - x = P' - P + (R' - R) y + R' (y' - y). A rotation by
 /// theta less none has the norm 2 sin(theta / 2), and sqrt(2) times that in Frobenius' sense.
-double motion(const UsedSpan& span, const SpanShape& shape, const CurvePair& before, const Placement& from,
-              const CurvePair& now, const Placement& to) {
-  double radius = 0.0;
-  const Controls c = controls(span, before, [](const Vec3& x) { return x; });
-  for (std::size_t i = 0; i < span.count; ++i)
-    radius = std::max(radius, (c.at[i] - from.position).squaredNorm());
-  const double turned = (to.rotation - from.rotation).norm() / std::sqrt(2.0);
-  const double carried = (to.position - from.position).norm() + turned * (std::sqrt(radius) + span.reach);
-  return carried * (1.0 + 1e-9) + motion(span, shape, {before, from}, {now, to});
+double motion(const UsedSpan& span, const SpanPose& before, const CurvePair& pair) {
+  const SpanPose now = going_with(span, pair);
+  const double turned = (now.rotation - before.rotation).norm() / std::sqrt(2.0);
+  const double carried = (now.position - before.position).norm() + turned * (before.radius + span.reach);
+  const double at = widest(before.seen.at, now.seen.at, span.count);
+  const double turns_within =
+      turns(before.shape, {0.0, widest(before.seen.rate, now.seen.rate, span.count - 1),
+                           widest(before.seen.offset, now.seen.offset, span.count)});
+  const double size = span.reach + before.position.norm() + now.position.norm() + before.radius + now.radius;
+  return (carried + at + span.reach * turns_within) * kUp + 1e-12 * size;
 }
 
 }  // namespace tendril::contact

@@ -8,9 +8,10 @@
 
 namespace tendril::contact {
 
-/// A span of a curve-pair that vertices are bound to.
+/// A span of a curve-pair that vertices are bound to, or a part of it.
 struct UsedSpan {
-  UsedSpan(std::uint32_t pair, const KnotVector& knots, int span);
+  /// \param part, parts  which of so many parts of the span, of the same length
+  UsedSpan(std::uint32_t pair, const KnotVector& knots, int span, int part = 0, int parts = 1);
 
   std::uint32_t pair, first, count;  ///< its control points [first, first + count)
   /// Its Bezier points, row by row, from these control points: the hull of what it alone is, while control
@@ -49,21 +50,46 @@ struct SpanGain {
 };
 /// \param interpolation  of the rod, see RodCurves
 SpanGain gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation);
+/// The same mass by mass and edge by edge, since what a span is depends on those nearby.
+struct LocalGain {
+  std::size_t first = 0, count = 0;       ///< of masses, and of the edges that begin there
+  std::vector<double> at, rate;           ///< per Bezier point, those of `count` masses and edges
+  double at_rest = 0.0, rate_rest = 0.0;  ///< of all others together
+  double all = 0.0;                       ///< of all masses
+};
+LocalGain local_gain_of(const UsedSpan& span, const std::vector<std::vector<double>>& interpolation);
+/// How far each mass of a rod moved, each edge between them and each orientation mass against it changed.
+struct MassMotions {
+  std::vector<double> mass, edge, arm;  ///< edge i from mass i on; the last is 0
+};
+
 /// How far masses of a rod moved at most, edges between them and orientation masses against them changed.
 struct RodMotion {
   double mass = 0.0, edge = 0.0, arm = 0.0;
   double size = 0.0;  ///< how far from the origin masses are
 };
-/// As motion() between two poses as the world sees them, without a look at the curves now.
-double motion(const SpanGain& gain, const UsedSpan& span, const SpanShape& shape_before,
-              const RodMotion& rod);
+/// As motion() between two poses as the world sees them, without a look at the curves now; of several spans
+/// by the largest gains and reach and the worst shape. \param reach  of the span
+double motion(const SpanGain& gain, double reach, const SpanShape& shape_before, const RodMotion& rod);
+/// The same, sharper where masses moved by different ways. \param most  of `masses`
+double motion(const LocalGain& gain, const UsedSpan& span, const SpanShape& shape_before,
+              const RodMotion& most, const MassMotions& masses);
 
-/// A frame that goes with a span, about the mean of its Bezier points: the axes of the means of c' and n.
-Placement going_with(const UsedSpan& span, const CurvePair& pair);
+/// Bezier points of a span, of its derivative by a parameter of its own, and of n.
+struct SpanControls {
+  std::array<Vec3, kMaxDegree + 1> at, rate, offset;
+};
+/// A span at a state, as bounds from there on want it.
+struct SpanPose {
+  SpanShape shape;
+  Mat3 rotation = Mat3::Identity();  ///< of a frame that goes with it: the axes of the means of c' and n
+  Vec3 position;                     ///< its origin, the mean of the Bezier points
+  SpanControls seen;                 ///< from that frame
+  double radius;                     ///< of the Bezier points about its origin
+};
+SpanPose pose_of(const UsedSpan& span, const CurvePair& pair);
 /// The same as motion() between two poses as the world sees them, sharper where the span moves as one: how
 /// far the frame that goes with it takes what it holds, and how far that moves as seen from there.
-/// \param from, to  going_with() before and now
-double motion(const UsedSpan& span, const SpanShape& shape_before, const CurvePair& before,
-              const Placement& from, const CurvePair& now, const Placement& to);
+double motion(const UsedSpan& span, const SpanPose& before, const CurvePair& now);
 
 }  // namespace tendril::contact

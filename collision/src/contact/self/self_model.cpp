@@ -1,0 +1,158 @@
+#include "self_model.h"
+
+#include <cmath>
+#include <utility>
+
+#include "contact/surfaces/surface_points.h"
+
+namespace tendril::contact {
+
+SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
+    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {
+  spans_of.resize(rods());
+  patches_of.resize(rods());
+  gain.resize(rods(), {0.0, 0.0});
+  reach.resize(rods(), 0.0);
+  std::vector<std::vector<std::vector<double>>> interpolation;
+  for (const std::size_t rod : points().rods()) interpolation.push_back(points().curves().interpolation(rod));
+  for (std::uint32_t i = 0; i < mesh.spans.size(); ++i) {
+    const UsedSpan& span = mesh.spans[i];
+    spans_of[span.pair].push_back(i);
+    const SpanGain own = gain_of(span, interpolation[span.pair]);
+    gains.push_back(local_gain_of(span, interpolation[span.pair]));
+    SpanGain& most = gain[span.pair];
+    most = {std::max(most.at, own.at), std::max(most.rate, own.rate)};
+    reach[span.pair] = std::max(reach[span.pair], span.reach);
+  }
+  for (std::uint32_t p = 0; p < mesh.patches.size(); ++p) {
+    std::vector<std::uint32_t> of_patch;
+    for (const std::uint32_t span : mesh.patches[p].spans) of_patch.push_back(mesh.spans[span].pair);
+    std::sort(of_patch.begin(), of_patch.end());
+    of_patch.erase(std::unique(of_patch.begin(), of_patch.end()), of_patch.end());
+    for (const std::uint32_t rod : of_patch) patches_of[rod].push_back(p);
+    rods_of.push_back(std::move(of_patch));
+  }
+}
+
+std::unique_ptr<SelfScratch> SelfModel::take_scratch() const {
+  {
+    const std::lock_guard guard(lock_);
+    if (!scratch_.empty()) {
+      std::unique_ptr<SelfScratch> result = std::move(scratch_.back());
+      scratch_.pop_back();
+      return result;
+    }
+  }
+  auto result = std::make_unique<SelfScratch>();
+  result->slot.resize(surface.rest.size());
+  for (const std::size_t rod : points().rods()) {
+    const KnotVector& knots = points().curves().knots(rod);
+    const std::vector<Vec3> none(static_cast<std::size_t>(knots.control_points()), Vec3::Zero());
+    result->now.emplace_back(knots, none, none);
+  }
+  result->before = result->rates = result->now;
+  return result;
+}
+
+void SelfModel::give_back(std::unique_ptr<SelfScratch> scratch) const {
+  const std::lock_guard guard(lock_);
+  scratch_.push_back(std::move(scratch));
+}
+
+RodPose SelfModel::pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const {
+  RodPose result{{p.begin(), p.end()}, std::move(arm), {}, {kInfinite, kInfinite, 0.0}};
+  for (const std::uint32_t i : spans_of[rod]) {
+    result.spans.push_back(pose_of(mesh.spans[i], pair));
+    const SpanShape& shape = result.spans.back().shape;
+    SpanShape& worst = result.worst;
+    worst = {std::min(worst.least_speed, shape.least_speed), std::min(worst.least_across, shape.least_across),
+             std::max(worst.most_offset, shape.most_offset)};
+  }
+  return result;
+}
+
+namespace {
+
+/// How far masses are from where they were, squared; \param each  takes those of a mass, an edge and an arm
+template <class Each>
+RodMotion motion_of(const RodPose& from, Points p, Points arm, Each&& each) {
+  RodMotion most;
+  Vec3 last = Vec3::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec3 way = p[i] - from.p[i];
+    const double mass = way.squaredNorm(), edge = i > 0 ? (way - last).squaredNorm() : 0.0;
+    const double turn = (arm[i] - from.arm[i]).squaredNorm();
+    most.mass = std::max(most.mass, mass);
+    most.edge = std::max(most.edge, edge);
+    most.arm = std::max(most.arm, turn);
+    most.size = std::max({most.size, p[i].squaredNorm(), from.p[i].squaredNorm()});
+    each(i, mass, edge, turn);
+    last = way;
+  }
+  return {std::sqrt(most.mass), std::sqrt(most.edge), std::sqrt(most.arm), std::sqrt(most.size)};
+}
+
+}  // namespace
+
+double SelfModel::coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const {
+  const RodMotion most = motion_of(from, p, arm, [](std::size_t, double, double, double) {});
+  return motion(gain[rod], reach[rod], from.worst, most);
+}
+
+void SelfModel::local_motions(std::size_t rod, const RodPose& from, Points p, Points arm,
+                              std::span<double> motions) const {
+  MassMotions masses{std::vector<double>(p.size()), std::vector<double>(p.size(), 0.0),
+                     std::vector<double>(p.size())};
+  const RodMotion most = motion_of(from, p, arm, [&](std::size_t i, double mass, double edge, double turn) {
+    masses.mass[i] = std::sqrt(mass);
+    if (i > 0) masses.edge[i - 1] = std::sqrt(edge);
+    masses.arm[i] = std::sqrt(turn);
+  });
+  for (std::size_t k = 0; k < spans_of[rod].size(); ++k) {
+    const std::uint32_t i = spans_of[rod][k];
+    motions[i] = motion(gains[i], mesh.spans[i], from.spans[k].shape, most, masses);
+  }
+}
+
+void SelfModel::motions(std::size_t rod, const RodPose& from, const CurvePair& now,
+                        std::span<double> motions) const {
+  for (std::size_t k = 0; k < spans_of[rod].size(); ++k) {
+    const std::uint32_t i = spans_of[rod][k];
+    motions[i] = motion(mesh.spans[i], from.spans[k], now);
+    if (!(motions[i] < kInfinite)) motions[i] = far_at_most(i, from, now);
+  }
+}
+
+/// Where a curve turns round within a span, bounds by its Bezier points say nothing, and an infinite one
+/// would refuse a state that is sound: what is bound to it is placed twice.
+double SelfModel::far_at_most(std::size_t span, const RodPose& from, const CurvePair& now) const {
+  const std::size_t rod = mesh.spans[span].pair;
+  std::vector<Vec3> q = from.arm;
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = from.p[i] + q[i];
+  const CurvePair before = points().curves().through(points().rods()[rod], from.p, q);
+  double most = 0.0;
+  std::vector<BoundShare> shares;
+  for (const std::uint32_t vertex : mesh.bound_to[span]) {
+    points().points().shares(vertex, shares);
+    for (const BoundShare& share : shares)
+      if (share.pair == rod)
+        most = std::max(most, (from_axial(now, share.record) - from_axial(before, share.record)).norm());
+  }
+  return most * (1.0 + 1e-9);
+}
+
+double SelfModel::of_patch(std::uint32_t patch, std::span<const double> motions) const {
+  double most = 0.0;
+  for (const std::uint32_t span : mesh.patches[patch].spans) most = std::max(most, motions[span]);
+  return most;
+}
+
+std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
+  std::vector<std::uint32_t> all(surface.rest.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<Vec3> result(all.size());
+  points().points().place(pairs, all, result);
+  return result;
+}
+
+}  // namespace tendril::contact

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+#include <tendril/base/error.h>
+#include <tendril/contact/surface_self_contact.h>
+
+#include "laws.h"
+#include "leaf.h"
+#include "shown.h"
+
+namespace tendril::contact {
+namespace {
+
+using test::Random;
+using test::Sheets;
+using test::Shown;
+using test::shown_of;
+
+/// What lists and bounds leave out is what has no part in it.
+TEST(SelfLedger, IsTheSameWithALedgerAndWithout) {
+  const double thick = 0.01, wide = 0.03;
+  Random random(3);
+  const Sheets sheets = test::crossed(2 * thick + 0.02);
+  const SurfaceSelfContact contact(sheets.surface(thick), law_of(Law::Kind::barrier, wide, 0.0, 0.0));
+  int touched = 0, untouched = 0;
+  for (int round = 0; round < 40; ++round) {
+    Shown s = shown_of(sheets.rods, random, 0.004, 0.5);
+    for (std::size_t i = 9; i < 18; ++i) s.p[i].z() += round % 2 == 0 ? random.uniform(-0.01, 0.03) : 0.1;
+    try {
+      s.memory = contact.remember(s.view(), nullptr);
+    } catch (const InvalidInput&) {
+      continue;
+    }
+    for (int step = 0; step < 6; ++step) {
+      for (Vec3& p : s.p) p += random.in_cube(0.002);
+      if (round % 2 == 1)
+        for (std::size_t i = 9; i < 18; ++i) s.p[i].z() -= 0.018;
+      std::vector<Vec3> with(s.p.size(), Vec3::Zero()), without = with, torque = with, turned = with;
+      std::size_t refused = Loads::kNone, again = Loads::kNone;
+      contact.add(s.view(), {with, torque, &refused});
+      StateView bare = s.view();
+      bare.memory = nullptr;
+      contact.add(bare, {without, turned, &again});
+      if (refused != Loads::kNone) break;
+      EXPECT_EQ(again, Loads::kNone);
+      EXPECT_EQ(with, without);
+      EXPECT_EQ(torque, turned);
+      ++(with != std::vector<Vec3>(s.p.size(), Vec3::Zero()) ? touched : untouched);
+      s.memory = contact.remember(s.view(), s.memory);
+    }
+  }
+  EXPECT_GT(touched, 60);
+  EXPECT_GT(untouched, 20);
+  std::cout << touched << " touched, " << untouched << " not\n";
+}
+
+/// Nor over many small steps, with what a ledger has taken over from the one before: a leaf comes down on
+/// another, slides over it and goes up again, as a whole or bending, and is looked at between steps too.
+TEST(SelfLedger, IsTheSameAfterManyStepsFromLedgerToLedger) {
+  Random random(12);
+  const double skin = 0.002, range = 0.004;  // so that lists and what is near are soon used up
+  const Sheets sheets = test::crossed(0.02);
+  const SurfaceSelfContact contact(sheets.surface(skin), law_of(Law::Kind::barrier, range, 0.0, 0.0));
+  int touched = 0, asleep = 0;
+  long searches = 0;
+  for (int round = 0; round < 6; ++round) {
+    Shown s = shown_of(sheets.rods, random, 0.0005, 0.2);
+    for (std::size_t i = 9; i < 18; ++i) s.p[i].z() += 0.03;
+    s.memory = contact.remember(s.view(), nullptr);
+    const Vec3 aside(random.uniform(-0.0015, 0.0015), random.uniform(-0.0015, 0.0015), 0.0);
+    for (int step = 0; step < 240; ++step) {
+      const Vec3 way = aside + Vec3(0, 0, step < 88 ? -0.0005 : step < 150 ? 0.0 : 0.0005);
+      for (int part = 0; part < 2; ++part) {
+        for (std::size_t i = 9; i < 18; ++i)
+          s.p[i] += (round % 2 == 0 ? 0.5 : 0.0625 * static_cast<double>(i - 9)) * way;
+        for (Vec3& p : s.p) p += random.in_cube(2e-6);
+        std::vector<Vec3> with(s.p.size(), Vec3::Zero()), without = with, torque = with, turned = with;
+        std::size_t refused = Loads::kNone;
+        contact.add(s.view(), {with, torque, &refused});
+        StateView bare = s.view();
+        bare.memory = nullptr;
+        contact.add(bare, {without, turned, nullptr});
+        if (refused != Loads::kNone) {
+          step = 240;
+          break;
+        }
+        ASSERT_EQ(with, without) << "round " << round << " step " << step;
+        ASSERT_EQ(torque, turned);
+        ++(with != std::vector<Vec3>(s.p.size(), Vec3::Zero()) ? touched : asleep);
+        if (part == 1) s.memory = contact.remember(s.view(), s.memory);
+      }
+    }
+    searches += dynamic_cast<const SurfaceSelfMemory&>(*s.memory).searches;
+  }
+  EXPECT_GT(touched, 200);
+  EXPECT_GT(asleep, 200);
+  EXPECT_LT(4 * searches, touched + asleep);
+  std::cout << touched << " touched, " << asleep << " not, searches " << searches << "\n";
+}
+
+}  // namespace
+}  // namespace tendril::contact
