@@ -51,6 +51,7 @@ OrderedJson to_json(const bind::BindReport& report, const Axes& axes) {
 }
 
 constexpr double kSecondsAlways = 0.3, kSecondsPerPoint = 1e-5;
+constexpr double kSecondsPerBranch = 0.08, kMorePerBranch = 0.08;
 constexpr double kMegabytesAlways = 55.0, kMegabytesPerPoint = 6e-4;
 
 /// Share of a mesh's area that a pose may spoil and still be right.
@@ -184,12 +185,14 @@ void tell_binding(const Options& options, const bind::BindReport& report, const 
     std::printf("  and %zu part(s) more, see --json\n", report.loose.size() - kPrinted);
 }
 
-/// What judging will take, on standard error, as it is told before and is no result. Measured on one core
-/// (tests/bench/binding, section judging); trees of axes take up to half as long again.
-void tell_cost(const bind::JudgeCost& cost) {
-  const auto points = static_cast<double>(cost.points);
+/// What judging will take, on standard error, as it is told before and is no result. Measured on one core,
+/// with one axis (tests/bench/binding, section judging) and trees of five to eleven.
+void tell_cost(const bind::JudgeCost& cost, std::size_t axes) {
+  const auto points = static_cast<double>(cost.points), branches = static_cast<double>(axes - 1);
   std::fprintf(stderr, "tendril: judging binds %zu points: some %.1g s of one core, and %.0f MB\n",
-               cost.points, kSecondsAlways + kSecondsPerPoint * points,
+               cost.points,
+               kSecondsAlways + kSecondsPerBranch * branches +
+                   kSecondsPerPoint * points * (1.0 + kMorePerBranch * branches),
                kMegabytesAlways + kMegabytesPerPoint * points);
 }
 
@@ -225,7 +228,7 @@ int judge(const Options& options) {
   } else {
     bind::JudgeOptions judging;
     judging.refinements = options.refinements;
-    tell_cost(bind::judge_cost(mesh, judging));
+    tell_cost(bind::judge_cost(mesh, judging), axes.rest.size());
     const bind::TearJudge judged(axes.rest, mesh, how, judging);
     tell(judged.own_binding());
     right = judge_pose(options, axes, judged, out);
