@@ -108,7 +108,7 @@ TEST(Export, RoundTripsTextureCoordinatesOfCorners) {
   PolygonMesh mesh = house();
   mesh.corner_texture.assign(7, {0.1, 0.2});
   EXPECT_EQ(parse_ply(ply_bytes(mesh, {.float32 = true}), "a").corner_texture[6],
-            (TextureCoordinate{0.1F, 0.2F}));
+            (TextureCoordinate{static_cast<double>(0.1F), static_cast<double>(0.2F)}));
 }
 
 TEST(Export, WritesTheKnownText) {

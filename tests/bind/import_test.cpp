@@ -130,7 +130,7 @@ TEST(ParseOff, ReadsBinary) {
   expected.point_normals.assign(3, Vec3(0, 0, 1));
   expected.point_colors.assign(3, {255, 0, 0, 128});
   expected.face_colors = {{0, 255, 0, 255}, {170, 170, 170, 255}};
-  expected.point_texture.assign(3, {0.1F, 0.2F});
+  expected.point_texture.assign(3, {static_cast<double>(0.1F), static_cast<double>(0.2F)});
   expect_same(parse_off(file.str(), "a.off"), expected);
 }
 
