@@ -11,11 +11,15 @@ if [ -f build/CMakeCache.txt ]; then cmake --preset release -Wno-dev; else cmake
 cmake --build --preset release --target tendril
 mkdir -p out
 build/bin/tendril rig build/cgal-meshes/diplodocus.off --size 1.5 --wind 12 --out out/scene.json --picture out/rig.png </dev/null
-build/bin/tendril run out/scene.json --out out --player </dev/null
+player=(--player)
+grep -q '^TENDRIL_HAS_PLAYER:INTERNAL=ON$' build/CMakeCache.txt || player=()  # npm fetched nothing: the rest is here
+build/bin/tendril run out/scene.json --out out "${player[@]}" </dev/null
 
 pictures=$(find out -name '*.png' | sort)
 [ -n "$pictures" ] || { echo "the run wrote no picture into out/" >&2; exit 1; }
 echo "pictures:"
 while read -r picture; do echo "  $PWD/$picture"; done <<<"$pictures"
-echo "to play in a browser:"
-echo "  $PWD/out/scene.html"
+if [ ${#player[@]} -gt 0 ]; then
+  echo "to play in a browser:"
+  echo "  $PWD/out/scene.html"
+fi

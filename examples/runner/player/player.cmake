@@ -19,6 +19,7 @@ if(TENDRIL_PLAYER)
 endif()
 
 set_property(GLOBAL PROPERTY TENDRIL_HAS_PLAYER ${has_player})
+set(TENDRIL_HAS_PLAYER ${has_player} CACHE INTERNAL "Whether the program has it: for scripts")
 if(has_player)
   file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*.js ${page_folder}/*.css ${page_folder}/*.html)
   add_custom_command(OUTPUT page_text.cpp
