@@ -95,27 +95,63 @@ class Gusts {
   /// How long after the origin the air passes a point.
   double delay(const Vec3& x) const { return square_ > 0.0 ? x.dot(mean_) / square_ : 0.0; }
   /// `factor` of each delay.
-  void find(std::span<const double> delay, std::span<double> factor) const {
-    std::fill(factor.begin(), factor.end(), 1.0);
-    double farthest = 0.0;
-    for (const double d : delay) farthest = std::max(farthest, std::abs(d));
-    for (const Turning& wave : waves_)
-      if (wave.omega * farthest < kFarthestPhase)
-        add_wave(wave.sine, wave.cosine, wave.omega, delay, factor);
-      else
-        for (std::size_t i = 0; i < delay.size(); ++i)
-          factor[i] += wave.size * std::sin(wave.phase - wave.omega * delay[i]);
-    for (double& f : factor) f *= switched_;
+  void find(std::span<const double> delay, std::span<double> factor) const { sum(false, delay, factor); }
+  /// And its derivatives by delays.
+  void find_slopes(std::span<const double> delay, std::span<double> slope) const { sum(true, delay, slope); }
+  /// Of the air's velocity by place, of the slope there.
+  Mat3 gradient(double slope) const {
+    return square_ > 0.0 ? Mat3((slope / square_) * mean_ * mean_.transpose()) : Mat3::Zero();
   }
 
  private:
-  struct Turning {
+  struct Wave {
     double omega, phase, size, sine, cosine;
   };
+  /// sin(a) at a = phase - omega d, or its derivative by d.
+  void sum(bool slope, std::span<const double> delay, std::span<double> out) const {
+    double farthest = 0.0;
+    for (const double d : delay) farthest = std::max(farthest, std::abs(d));
+    std::fill(out.begin(), out.end(), slope ? 0.0 : 1.0);
+    for (const Wave& wave : waves_) {
+      if (wave.omega * farthest < kFarthestPhase) {
+        add_wave(slope ? -wave.omega * wave.cosine : wave.sine, slope ? wave.omega * wave.sine : wave.cosine,
+                 wave.omega, delay, out);
+        continue;
+      }
+      for (std::size_t i = 0; i < delay.size(); ++i) {
+        const double a = wave.phase - wave.omega * delay[i];
+        out[i] += wave.size * (slope ? -wave.omega * std::cos(a) : std::sin(a));
+      }
+    }
+    for (double& f : out) f *= switched_;
+  }
+
   Vec3 mean_;
   double square_, switched_;
-  std::vector<Turning> waves_;
+  std::vector<Wave> waves_;
 };
+
+/// Edges that have a length, in blocks: sines of many at once cost a tenth of what they do one by one.
+/// \param each  takes first nodes of a block's edges and the delays of their middles
+template <class Each>
+void in_blocks(const StateView& state, const Gusts& gusts, Each&& each) {
+  constexpr std::size_t kBlock = 128;
+  std::array<std::size_t, kBlock> edges;
+  std::array<double, kBlock> delay;
+  std::size_t count = 0;
+  const auto flush = [&] {
+    each(std::span(edges).first(count), std::span<const double>(delay).first(count));
+    count = 0;
+  };
+  for (const NodeRange& rod : state.rods)
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
+      if ((state.p[i + 1] - state.p[i]).isZero(0.0)) continue;
+      edges[count] = i;
+      delay[count++] = gusts.delay(0.5 * (state.p[i] + state.p[i + 1]));
+      if (count == kBlock) flush();
+    }
+  flush();
+}
 
 }  // namespace
 
@@ -136,16 +172,11 @@ double Wind::period() const {
 }
 
 Mat3 Wind::velocity_gradient(const Vec3& x, double t) const {
-  const double speed = options_.mean.norm();
-  if (speed == 0.0 || options_.gust == 0.0 || waves_.empty()) return Mat3::Zero();
-  const double delay = x.dot(options_.mean) / (speed * speed);
+  const Gusts gusts(options_, waves_, t);
+  const double delay = gusts.delay(x);
   double slope = 0.0;
-  for (const Wave& wave : waves_) {
-    const double omega = 2 * std::numbers::pi * wave.frequency;
-    slope += omega * std::cos(omega * (t - delay) + wave.phase);
-  }
-  slope *= options_.switched(t) * options_.gust / std::sqrt(static_cast<double>(waves_.size()));
-  return -slope / (speed * speed) * options_.mean * options_.mean.transpose();
+  gusts.find_slopes({&delay, 1}, {&slope, 1});
+  return gusts.gradient(slope);
 }
 
 namespace {
@@ -192,36 +223,26 @@ struct Exposed {
   }
 };
 
+Exposed exposed_at(const StateView& state, std::size_t i, const Vec3& air, const WindOptions& options) {
+  return {state.p[i + 1] - state.p[i], 0.5 * (state.v[i] + state.v[i + 1]) - air,
+          -0.25 * options.air_density * state.width[i], options};
+}
+
 }  // namespace
 
-/// Edges in blocks: sines of many at once cost a tenth of what they do one by one.
 void Wind::add(const StateView& state, const Loads& loads) const {
   const Gusts gusts(options_, waves_, state.time);
-  constexpr std::size_t kBlock = 128;
-  std::array<std::size_t, kBlock> edges;
-  std::array<double, kBlock> delay, factor;
-  std::size_t count = 0;
-  const auto add_block = [&] {
-    gusts.find({delay.data(), count}, {factor.data(), count});
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = edges[k];
-      const Vec3 flow = 0.5 * (state.v[i] + state.v[i + 1]) - factor[k] * options_.mean;
-      const Vec3 half =
-          Exposed(state.p[i + 1] - state.p[i], flow, -0.25 * options_.air_density * state.width[i], options_)
-              .drag();
-      loads.force[i] += half;
-      loads.force[i + 1] += half;
+  std::vector<double> factor;
+  in_blocks(state, gusts, [&](std::span<const std::size_t> edges, std::span<const double> delay) {
+    factor.resize(edges.size());
+    gusts.find(delay, factor);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const Exposed exposed = exposed_at(state, edges[k], factor[k] * options_.mean, options_);
+      const Vec3 half = exposed.drag();
+      loads.force[edges[k]] += half;
+      loads.force[edges[k] + 1] += half;
     }
-    count = 0;
-  };
-  for (const NodeRange& rod : state.rods)
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      if ((state.p[i + 1] - state.p[i]).isZero(0.0)) continue;
-      edges[count] = i;
-      delay[count++] = gusts.delay(0.5 * (state.p[i] + state.p[i + 1]));
-      if (count == kBlock) add_block();
-    }
-  add_block();
+  });
 }
 
 Couplings Wind::couplings(std::span<const NodeRange>) const {
@@ -230,15 +251,18 @@ Couplings Wind::couplings(std::span<const NodeRange>) const {
 }
 
 void Wind::add_derivatives(const StateView& state, LoadDerivatives& to) const {
-  for (const NodeRange& rod : state.rods) {
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      const Vec3 edge = state.p[i + 1] - state.p[i];
-      if (edge.isZero(0.0)) continue;
-      const Vec3 middle = 0.5 * (state.p[i] + state.p[i + 1]);
-      const Vec3 flow = 0.5 * (state.v[i] + state.v[i + 1]) - velocity(middle, state.time);
-      const Exposed exposed(edge, flow, -0.25 * options_.air_density * state.width[i], options_);
+  const Gusts gusts(options_, waves_, state.time);
+  std::vector<double> factor, slope;
+  in_blocks(state, gusts, [&](std::span<const std::size_t> edges, std::span<const double> delay) {
+    factor.resize(edges.size());
+    slope.resize(edges.size());
+    gusts.find(delay, factor);
+    gusts.find_slopes(delay, slope);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const std::size_t i = edges[k];
+      const Exposed exposed = exposed_at(state, i, factor[k] * options_.mean, options_);
       const Mat3 by_velocity = 0.5 * exposed.by_flow();
-      const Mat3 by_middle = -by_velocity * velocity_gradient(middle, state.time);
+      const Mat3 by_middle = -by_velocity * gusts.gradient(slope[k]);
       const Mat3 by_edge = exposed.by_edge();
       for (const std::size_t at : {i, i + 1}) {
         to.add_by_velocity(at, i, by_velocity);
@@ -247,7 +271,7 @@ void Wind::add_derivatives(const StateView& state, LoadDerivatives& to) const {
         to.add_by_position(at, i + 1, by_middle + by_edge);
       }
     }
-  }
+  });
 }
 
 PointLoad::PointLoad(Kind kind, std::size_t rod, std::size_t node, const Vec3& direction, Signal signal)
