@@ -82,7 +82,8 @@ void add_to_controls(const Span& span, const Piece<double>& piece, const Moments
   to.primary[span.reference()] += base;
 }
 
-/// On every pair's control points; \param add  adds those of each span that has any
+/// On every pair's control points.
+/// \param add  adds those of a span, where it has any
 template <class Add>
 std::vector<ControlForces> to_controls(const BindingLayout& layout, const Add& add) {
   std::vector<ControlForces> result;

@@ -39,21 +39,12 @@ Points PosedSelf::masses(std::size_t rod) const {
 
 const CurvePair& PosedSelf::curve(std::size_t rod) {
   if (made_.empty()) made_.resize(arms_.size(), 0);
-  if (!std::exchange(made_[rod], 1)) set(scratch_->now[rod], rod, masses(rod), arms_[rod]);
+  if (!std::exchange(made_[rod], 1)) scratch_->now[rod] = model_.curve(rod, masses(rod), arms_[rod]);
   return scratch_->now[rod];
 }
 
 const CurvePair& PosedSelf::kept_curve(std::size_t rod) {
-  set(scratch_->before[rod], rod, kept_->p[rod], kept_->arm[rod]);
-  return scratch_->before[rod];
-}
-
-/// As RodCurves::pair, into what is there.
-void PosedSelf::set(CurvePair& curve, std::size_t rod, Points p, Points arm) const {
-  std::vector<Vec3> q(arm.begin(), arm.end());
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = p[i] + q[i];
-  const CurvePair at = model_.points().curves().through(model_.points().rods()[rod], p, q);
-  curve.set_control_points(at.primary().control_points(), at.orientation().control_points());
+  return scratch_->before[rod] = model_.curve(rod, kept_->p[rod], kept_->arm[rod]);
 }
 
 std::span<const double> PosedSelf::motions(std::size_t rod, By by) {
@@ -109,11 +100,8 @@ void PosedSelf::wake(const std::vector<std::uint32_t>& moving) {
     for (const std::uint32_t group : kept_->list->with(rod))
       if (!asleep(group)) awake_.push_back(group);
   if (awake_.empty()) return;
-  std::sort(awake_.begin(), awake_.end());
-  awake_.erase(std::unique(awake_.begin(), awake_.end()), awake_.end());
-  const std::vector<char> near = rods_of_awake();
-  for (std::size_t rod = 0; rod < near.size(); ++rod)
-    if (near[rod]) motions(rod, By::curves);
+  sort_once(awake_);
+  for (const std::uint32_t rod : rods_of_awake()) motions(rod, By::curves);
   awake_.erase(std::remove_if(awake_.begin(), awake_.end(), asleep), awake_.end());
 }
 
@@ -138,20 +126,20 @@ void PosedSelf::search() {
   for (std::uint32_t g = 0; g < own_->groups.size(); ++g) awake_.push_back(g);
 }
 
-std::vector<char> PosedSelf::rods_of_awake() const {
-  std::vector<char> of(arms_.size(), 0);
+std::vector<std::uint32_t> PosedSelf::rods_of_awake() const {
+  std::vector<std::uint32_t> rods;
   for (const std::uint32_t g : awake_)
     for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
-      for (const std::uint32_t rod : model_.rods_of[patch]) of[rod] = 1;
-  return of;
+      rods.insert(rods.end(), model_.rods_of[patch].begin(), model_.rods_of[patch].end());
+  sort_once(rods);
+  return rods;
 }
 
 /// All vertices in one call, of the rods concerned alone.
 void PosedSelf::place() {
   if (awake_.empty()) return;
-  const std::vector<char> wanted = rods_of_awake();
-  for (std::size_t rod = 0; rod < wanted.size(); ++rod)
-    if (wanted[rod]) curve(rod);
+  concerned_ = rods_of_awake();
+  for (const std::uint32_t rod : concerned_) curve(rod);
   std::vector<char> seen(model_.surface.rest.size(), 0);
   for (const std::uint32_t g : awake_)
     for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
@@ -196,9 +184,7 @@ const Vec3& PosedSelf::before(std::uint32_t vertex) {
         missing.push_back(vertices_[i]);
     }
     if (!missing.empty()) {
-      const std::vector<char> wanted = rods_of_awake();
-      for (std::size_t rod = 0; rod < wanted.size(); ++rod)
-        if (wanted[rod]) kept_curve(rod);
+      for (const std::uint32_t rod : concerned_) kept_curve(rod);
       std::vector<Vec3> found(missing.size());
       model_.points().points().place(scratch_->before, missing, found);
       for (std::size_t i = 0; i < missing.size(); ++i) before_[slot(missing[i])] = found[i];
@@ -210,14 +196,11 @@ const Vec3& PosedSelf::before(std::uint32_t vertex) {
 const Vec3& PosedSelf::velocity(std::uint32_t vertex) {
   if (velocity_.empty()) {
     velocity_.assign(vertices_.size(), Vec3::Zero());
-    const std::vector<char> wanted = rods_of_awake();
     bool fit = true;
-    for (std::size_t rod = 0; rod < wanted.size() && fit; ++rod) {
-      if (!wanted[rod]) continue;
-      const std::size_t index = model_.points().rods()[rod];
-      const NodeRange nodes{state_.rods[index].first, arms_[rod].size()};
-      fit = fits(state_.v.subspan(nodes.first, nodes.count)) &&
-            fits(state_.turn.subspan(nodes.first, nodes.count));
+    for (const std::uint32_t rod : concerned_) {
+      const std::size_t index = model_.points().rods()[rod], first = state_.rods[index].first;
+      const std::size_t count = arms_[rod].size();
+      fit = fit && fits(state_.v.subspan(first, count)) && fits(state_.turn.subspan(first, count));
       if (fit) scratch_->rates[rod] = model_.points().curves().rates(state_, index);
     }
     if (fit) model_.points().points().velocities(pairs(), scratch_->rates, vertices_, velocity_);

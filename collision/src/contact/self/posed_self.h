@@ -70,6 +70,8 @@ class PosedSelf {
   std::span<const std::uint32_t> awake() const { return awake_; }
   /// What the ledger knows of an awake group; null where it does not, or too little.
   const NearGroup* known(std::uint32_t group);
+  /// Rods with a part in an awake group, ascending.
+  std::vector<std::uint32_t> rods_of_awake() const;
   /// How far the vertices of a group moved at most since the ledger was kept, both patches' together.
   double moved(const SelfGroup& group);
 
@@ -96,7 +98,6 @@ class PosedSelf {
   std::span<const CurvePair> pairs() const { return scratch_->now; }
 
  private:
-  void set(CurvePair& curve, std::size_t rod, Points p, Points arm) const;
   bool stays(std::size_t rod);
   void look();
   bool within_margins(std::size_t rod) const;
@@ -104,7 +105,6 @@ class PosedSelf {
   void search();
   const CurvePair& kept_curve(std::size_t rod);
   void place();
-  std::vector<char> rods_of_awake() const;
 
   const SelfModel& model_;
   const StateView& state_;
@@ -116,7 +116,7 @@ class PosedSelf {
   std::vector<double> coarse_, motions_;
   std::vector<By> bounded_;  ///< per rod
   std::shared_ptr<const SelfList> own_;
-  std::vector<std::uint32_t> awake_, vertices_;
+  std::vector<std::uint32_t> awake_, concerned_, vertices_;  ///< concerned_: rods_of_awake()
   std::vector<Vec3> now_, before_, velocity_;
 };
 

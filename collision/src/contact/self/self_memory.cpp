@@ -19,7 +19,6 @@ constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0;
 constexpr double kOfRoom = 0.7;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
-
 // A list is made anew where a next step with so many times this one's motion of masses would leave it.
 constexpr double kNextStep = 4.0;
 
@@ -140,11 +139,9 @@ class SelfKeeper {
     std::vector<std::uint32_t> moves;
     for (std::uint32_t rod = 0; rod < model_.rods(); ++rod)
       if (moved_on(rod)) moves.push_back(rod);
-    for (const std::uint32_t g : surface_.awake())
-      for (const std::uint32_t patch : {surface_.list().groups[g].p, surface_.list().groups[g].q})
-        moves.insert(moves.end(), model_.rods_of[patch].begin(), model_.rods_of[patch].end());
-    std::sort(moves.begin(), moves.end());
-    moves.erase(std::unique(moves.begin(), moves.end()), moves.end());
+    const std::vector<std::uint32_t> near = surface_.rods_of_awake();
+    moves.insert(moves.end(), near.begin(), near.end());
+    sort_once(moves);
     if (!stand_anew(moves)) return false;
     if (!surface_.awake().empty()) measure();
     find_rooms(moves);
@@ -172,8 +169,7 @@ class SelfKeeper {
       patches.insert(patches.end(), model_.patches_of[rod].begin(), model_.patches_of[rod].end());
       ledger_->base[rod] = std::make_shared<const RodPose>(pose(rod));
     }
-    std::sort(patches.begin(), patches.end());
-    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+    sort_once(patches);
     for (const std::uint32_t patch : patches) ledger_->path[patch] += model_.of_patch(patch, way);
     return true;
   }

@@ -11,29 +11,30 @@ SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
     : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {
   spans_of.resize(rods());
   patches_of.resize(rods());
-  gain.resize(rods(), {0.0, 0.0});
-  reach.resize(rods(), 0.0);
+  rod_gain.resize(rods(), {0.0, 0.0});
+  rod_reach.resize(rods(), 0.0);
   std::vector<std::vector<std::vector<double>>> interpolation;
   for (const std::size_t rod : points().rods()) interpolation.push_back(points().curves().interpolation(rod));
   for (std::uint32_t i = 0; i < mesh.spans.size(); ++i) {
     const UsedSpan& span = mesh.spans[i];
     spans_of[span.pair].push_back(i);
     const SpanGain own = gain_of(span, interpolation[span.pair]);
-    gains.push_back(local_gain_of(span, interpolation[span.pair]));
-    SpanGain& most = gain[span.pair];
+    span_gain.push_back(local_gain_of(span, interpolation[span.pair]));
+    SpanGain& most = rod_gain[span.pair];
     most = {std::max(most.at, own.at), std::max(most.rate, own.rate)};
-    reach[span.pair] = std::max(reach[span.pair], span.reach);
+    rod_reach[span.pair] = std::max(rod_reach[span.pair], span.reach);
   }
   for (std::uint32_t p = 0; p < mesh.patches.size(); ++p) {
     std::vector<std::uint32_t> of_patch;
     for (const std::uint32_t span : mesh.patches[p].spans) of_patch.push_back(mesh.spans[span].pair);
-    std::sort(of_patch.begin(), of_patch.end());
-    of_patch.erase(std::unique(of_patch.begin(), of_patch.end()), of_patch.end());
+    sort_once(of_patch);
     for (const std::uint32_t rod : of_patch) patches_of[rod].push_back(p);
     rods_of.push_back(std::move(of_patch));
   }
 }
 
+/// Curves of two hundred rods are a thousand small pieces of memory, of which an evaluation wants a few:
+/// what one leaves behind serves the next, as knots never change and what is stale is not looked at.
 std::unique_ptr<SelfScratch> SelfModel::take_scratch() const {
   {
     const std::lock_guard guard(lock_);
@@ -59,6 +60,13 @@ void SelfModel::give_back(std::unique_ptr<SelfScratch> scratch) const {
   scratch_.push_back(std::move(scratch));
 }
 
+/// As RodCurves::pair() has it, to the last bit.
+CurvePair SelfModel::curve(std::size_t rod, Points p, Points arm) const {
+  std::vector<Vec3> q(arm.begin(), arm.end());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = p[i] + q[i];
+  return points().curves().through(points().rods()[rod], p, q);
+}
+
 RodPose SelfModel::pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const {
   RodPose result{{p.begin(), p.end()}, std::move(arm), {}, {kInfinite, kInfinite, 0.0}};
   for (const std::uint32_t i : spans_of[rod]) {
@@ -73,7 +81,8 @@ RodPose SelfModel::pose(std::size_t rod, const CurvePair& pair, Points p, std::v
 
 namespace {
 
-/// How far masses are from where they were, squared; \param each  takes those of a mass, an edge and an arm
+/// How far masses are from where they were.
+/// \param each  takes the squares for a mass, the edge that ends there and its arm
 template <class Each>
 RodMotion motion_of(const RodPose& from, Points p, Points arm, Each&& each) {
   RodMotion most;
@@ -94,11 +103,13 @@ RodMotion motion_of(const RodPose& from, Points p, Points arm, Each&& each) {
 
 }  // namespace
 
+/// Each number that motion() takes only makes it larger, so that the worst of all spans bounds each of them.
 double SelfModel::coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const {
   const RodMotion most = motion_of(from, p, arm, [](std::size_t, double, double, double) {});
-  return motion(gain[rod], reach[rod], from.worst, most);
+  return motion(rod_gain[rod], rod_reach[rod], from.worst, most);
 }
 
+/// A clamped leaf swings at its tip and hardly at its foot: what is near there sleeps on.
 void SelfModel::local_motions(std::size_t rod, const RodPose& from, Points p, Points arm,
                               std::span<double> motions) const {
   MassMotions masses{std::vector<double>(p.size()), std::vector<double>(p.size(), 0.0),
@@ -110,7 +121,7 @@ void SelfModel::local_motions(std::size_t rod, const RodPose& from, Points p, Po
   });
   for (std::size_t k = 0; k < spans_of[rod].size(); ++k) {
     const std::uint32_t i = spans_of[rod][k];
-    motions[i] = motion(gains[i], mesh.spans[i], from.spans[k].shape, most, masses);
+    motions[i] = motion(span_gain[i], mesh.spans[i], from.spans[k].shape, most, masses);
   }
 }
 
@@ -124,12 +135,11 @@ void SelfModel::motions(std::size_t rod, const RodPose& from, const CurvePair& n
 }
 
 /// Where a curve turns round within a span, bounds by its Bezier points say nothing, and an infinite one
-/// would refuse a state that is sound: what is bound to it is placed twice.
+/// would refuse a state that is sound: what is bound to it is placed twice, by this rod's shares alone, since
+/// others may have their base at another time.
 double SelfModel::far_at_most(std::size_t span, const RodPose& from, const CurvePair& now) const {
   const std::size_t rod = mesh.spans[span].pair;
-  std::vector<Vec3> q = from.arm;
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = from.p[i] + q[i];
-  const CurvePair before = points().curves().through(points().rods()[rod], from.p, q);
+  const CurvePair before = curve(rod, from.p, from.arm);
   double most = 0.0;
   std::vector<BoundShare> shares;
   for (const std::uint32_t vertex : mesh.bound_to[span]) {

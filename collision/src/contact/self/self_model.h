@@ -66,6 +66,12 @@ struct SelfScratch {
   std::vector<std::uint32_t> slot;            ///< per vertex; likewise
 };
 
+/// Ascending, each once.
+inline void sort_once(std::vector<std::uint32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 struct SelfModel {
   SelfModel(ContactSurface surface, const Law& law, Meets which);
 
@@ -76,9 +82,9 @@ struct SelfModel {
   std::vector<std::vector<std::uint32_t>> spans_of;    ///< per rod
   std::vector<std::vector<std::uint32_t>> patches_of;  ///< per rod: what its spans hold a part of
   std::vector<std::vector<std::uint32_t>> rods_of;     ///< per patch, ascending
-  std::vector<LocalGain> gains;                        ///< per span
-  std::vector<SpanGain> gain;                          ///< per rod: the largest of its spans
-  std::vector<double> reach;                           ///< likewise
+  std::vector<LocalGain> span_gain;                    ///< per span
+  std::vector<SpanGain> rod_gain;                      ///< per rod: the largest of its spans
+  std::vector<double> rod_reach;                       ///< likewise
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   const RodPoints& points() const { return *surface.points; }
@@ -89,6 +95,7 @@ struct SelfModel {
   std::unique_ptr<SelfScratch> take_scratch() const;
   void give_back(std::unique_ptr<SelfScratch> scratch) const;
 
+  CurvePair curve(std::size_t rod, Points p, Points arm) const;
   RodPose pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const;
   /// How far what a rod holds moved at most, by its masses alone: 0.1 us.
   double coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const;

@@ -69,9 +69,11 @@ struct RodMotion {
   double size = 0.0;  ///< how far from the origin masses are
 };
 /// As motion() between two poses as the world sees them, without a look at the curves now; of several spans
-/// by the largest gains and reach and the worst shape. \param reach  of the span
+/// by the largest gains and reach and the worst shape.
+/// \param reach  of the span
 double motion(const SpanGain& gain, double reach, const SpanShape& shape_before, const RodMotion& rod);
-/// The same, sharper where masses moved by different ways. \param most  of `masses`
+/// The same, sharper where masses moved by different ways.
+/// \param most  of `masses`
 double motion(const LocalGain& gain, const UsedSpan& span, const SpanShape& shape_before,
               const RodMotion& most, const MassMotions& masses);
 
