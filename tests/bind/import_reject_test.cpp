@@ -5,32 +5,11 @@
 
 #include <functional>
 
+#include "mesh_notes.h"
 #include "mesh_text.h"
 
 namespace tendril::bind {
 namespace {
-
-struct Bad {
-  std::string bytes;
-  std::string place;   // after the name: a line, or "byte N"
-  std::string reason;  // a part of it
-};
-
-std::string quoted_start(const std::string& bytes) {
-  return testing::PrintToString(bytes.substr(0, 200));
-}
-
-void expect_refused(const Bad& bad, PolygonMesh (*parse)(std::string_view, const std::string&)) {
-  SCOPED_TRACE(quoted_start(bad.bytes));
-  try {
-    const PolygonMesh mesh = parse(bad.bytes, "bad");
-    ADD_FAILURE() << "accepted with " << mesh.points.size() << " points";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.place(), "bad:" + bad.place) << error.what();
-    EXPECT_NE(error.reason().find(bad.reason), std::string::npos) << error.what();
-    EXPECT_FALSE(error.expected().empty());
-  }
-}
 
 const std::string sheet = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
@@ -40,7 +19,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 TEST(RejectOff, Headers) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {"", "1", "file ends"},
       {"\n# only a comment\n", "3", "file ends"},
       {"off\n0 0 0\n", "1", "'off'"},
@@ -65,11 +44,11 @@ TEST(RejectOff, Headers) {
       {std::string("OFF\0\n0 0 0\n", 11), "1", "'OFF?'"},
       {"OFF BINARY text\n", "1", "text after BINARY"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_off);
+  for (const BadFile& bad : table) expect_refused(bad, parse_off);
 }
 
 TEST(RejectOff, Vertices) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {with(sheet, "1 1 0", "1 nan 0"), "5", "vertex 2: coordinate 'nan' is not finite"},
       {with(sheet, "1 1 0", "1 1 inf"), "5", "vertex 2: coordinate 'inf' is not finite"},
       {with(sheet, "1 1 0", "-infinity 1 0"), "5", "vertex 2: coordinate '-infinity' is not finite"},
@@ -97,11 +76,11 @@ TEST(RejectOff, Vertices) {
       {"STOFF\n1 0 0\n0 0 0 0.5\n", "4", "file ends"},
       {"STCOFF\n1 0 0\n0 0 0 1 1 1 0\n", "3", "only 4 values"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_off);
+  for (const BadFile& bad : table) expect_refused(bad, parse_off);
 }
 
 TEST(RejectOff, Faces) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {with(sheet, "3 0 1 2", "3 0 1 4"), "7", "face 0: vertex index '4'"},
       {with(sheet, "3 0 1 2", "3 0 -1 2"), "7", "face 0: vertex index '-1'"},
       {with(sheet, "3 0 1 2", "3 0 0.9 2"), "7", "face 0: vertex index '0.9'"},
@@ -126,7 +105,7 @@ TEST(RejectOff, Faces) {
       {"OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 3\r\n", "6", "vertex index '3'"},
       {"OFF\r3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 3\r", "6", "vertex index '3'"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_off);
+  for (const BadFile& bad : table) expect_refused(bad, parse_off);
 }
 
 /// One triangle in binary OFF; byte 11 begins the counts, 23 the points, 59 the face.
@@ -141,7 +120,7 @@ TEST(RejectOff, Binary) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::string good = binary_off(3, 0, 3, 2, 0);
   ASSERT_EQ(parse_off(good, "good").face_count(), 1);
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {binary_off(-1, 0, 3, 2, 0), "byte 11", "number of vertices is -1"},
       {binary_off(2000000000, 0, 3, 2, 0), "byte 79", "the file ends here"},
       {binary_off(3, nan, 3, 2, 0), "byte 55", "vertex 2: coordinate nan is not finite"},
@@ -156,7 +135,7 @@ TEST(RejectOff, Binary) {
       {good + "\n", "byte 79", "1 bytes are left over"},
       {good.substr(0, 20), "byte 19", "header: the file ends"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_off);
+  for (const BadFile& bad : table) expect_refused(bad, parse_off);
 }
 
 const std::string ply =
@@ -164,7 +143,7 @@ const std::string ply =
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 TEST(RejectPly, HeaderLines) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {"", "1", "file ends"},
       {"PLY\n", "1", "'PLY'"},
       {"ply", "1", "file ends"},
@@ -192,11 +171,11 @@ TEST(RejectPly, HeaderLines) {
       {with(ply, "end_header\n", "end_header now\n"), "9", "' now' after end_header"},
       {with(ply, "format", "fromat"), "2", "unknown keyword 'fromat'"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_ply);
+  for (const BadFile& bad : table) expect_refused(bad, parse_ply);
 }
 
 TEST(RejectPly, HeadersThatDoNotMakeAMesh) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {"ply\nformat ascii 1.0\nend_header\n", "3", "no element 'vertex'"},
       {with(ply, "property float z\n", ""), "8", "vertices without z"},
       {with(ply, "float y", "list uchar float y"), "9", "vertices without y"},
@@ -205,11 +184,11 @@ TEST(RejectPly, HeadersThatDoNotMakeAMesh) {
       {with(ply, "list uchar int vertex_indices", "int vertex_indices"), "9", "faces without corners"},
       {with(ply, "end_header", "property list uchar int vertex_index\nend_header"), "10", "both"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_ply);
+  for (const BadFile& bad : table) expect_refused(bad, parse_ply);
 }
 
 TEST(RejectPly, TextBody) {
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {with(ply, "\n1 0 0", "\n1 nan 0"), "11", "vertex 1: value 'nan' is not finite"},
       {with(ply, "\n1 0 0", "\n1 1e400 0"), "11", "vertex 1: '1e400' is not a number"},
       {with(ply, "\n1 0 0", "\n1 0,5 0"), "11", "vertex 1: '0,5' is not a number"},
@@ -243,7 +222,7 @@ TEST(RejectPly, TextBody) {
        "12", "a 0: a list of length '-1'"},
       {ply + "0\n", "14", "'0' is left over"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_ply);
+  for (const BadFile& bad : table) expect_refused(bad, parse_ply);
 }
 
 const std::string binary_head =
@@ -261,7 +240,7 @@ TEST(RejectPly, BinaryBody) {
   ASSERT_EQ(parse_ply(good, "good").face_count(), 1);
   const auto byte = [](std::size_t n) { return "byte " + std::to_string(binary_head.size() + n); };
   const float inf = std::numeric_limits<float>::infinity();
-  const std::vector<Bad> table{
+  const std::vector<BadFile> table{
       {binary_ply(inf, 3, 2), byte(28), "vertex 2: value inf is not finite"},
       {binary_ply(1, 3, 3), byte(48), "face 0: vertex index 3"},
       {binary_ply(1, 3, -1), byte(48), "face 0: vertex index -1"},
@@ -273,7 +252,7 @@ TEST(RejectPly, BinaryBody) {
       {with(binary_head, "vertex 3", "vertex 4294967295"), "byte " + std::to_string(binary_head.size() + 9),
        "vertex 0"},
   };
-  for (const Bad& bad : table) expect_refused(bad, parse_ply);
+  for (const BadFile& bad : table) expect_refused(bad, parse_ply);
 }
 
 /// Cut after every byte: the file is refused, or complete as the whole one is when only its end of line is

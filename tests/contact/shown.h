@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <tendril/dynamics/force.h>
 
 #include "support/random.h"
@@ -31,6 +32,25 @@ inline Shown shown(Random& random, const std::vector<Vec3>& at, double speed) {
   }
   s.rods = {{0, at.size()}};
   return s;
+}
+
+enum class Felt { nothing, something, refusal };
+
+/// What a force does with what it remembers is, to the last bit, what it does without; but it may refuse a way
+/// there.
+inline Felt same_without_memory(const Force& force, const Shown& s) {
+  const std::vector<Vec3> none(s.p.size(), Vec3::Zero());
+  std::vector<Vec3> with = none, without = none, torque = none, turned = none;
+  std::size_t refused = Loads::kNone, again = Loads::kNone;
+  force.add(s.view(), {with, torque, &refused});
+  StateView bare = s.view();
+  bare.memory = nullptr;
+  force.add(bare, {without, turned, &again});
+  if (refused != Loads::kNone) return Felt::refusal;
+  EXPECT_EQ(again, Loads::kNone);
+  EXPECT_EQ(with, without);
+  EXPECT_EQ(torque, turned);
+  return with == none ? Felt::nothing : Felt::something;
 }
 
 }  // namespace tendril::test
