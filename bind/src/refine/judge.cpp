@@ -55,7 +55,7 @@ TriangleMesh first_level(const PolygonMesh& mesh, const JudgeOptions& options) {
   return now;
 }
 
-/// The first `count` by `before`, and in this order.
+/// The first `count` by `before`, and in this order. Of hundreds of thousands a few hundred are wanted.
 template <class T, class Before>
 void keep_first(std::vector<T>& list, std::size_t count, const Before& before) {
   const auto end = list.begin() + static_cast<std::ptrdiff_t>(std::min(count, list.size()));
@@ -63,6 +63,7 @@ void keep_first(std::vector<T>& list, std::size_t count, const Before& before) {
   list.erase(end, list.end());
 }
 
+/// Ties by index, so that a report does not depend on how a sort happens to leave them.
 bool more_stretched(const WorstEdge& a, const WorstEdge& b) {
   return a.stretch != b.stretch ? a.stretch > b.stretch : PointPair{a.a, a.b} < PointPair{b.a, b.b};
 }
@@ -80,6 +81,8 @@ std::vector<WorstEdge> stretches(const TriangleMesh& level, Points posed) {
 
 }  // namespace
 
+/// Without splitting anything: a split puts a point on each edge, halves it, and joins the three within
+/// each face.
 JudgeCost judge_cost(const PolygonMesh& mesh, const JudgeOptions& options) {
   check(options);
   require_valid(mesh);
@@ -107,6 +110,7 @@ struct TearJudge::Data {
     double t;
   };
 
+  /// One binder for all levels: what it knows of the body, its voxels and the ways through it, costs most.
   Data(std::span<const CurvePair> curves, const PolygonMesh& mesh, const BindOptions& bind,
        const JudgeOptions& asked)
       : options(asked),
@@ -146,6 +150,7 @@ struct TearJudge::Data {
   std::vector<Nearest> nearest;  ///< of the finest level's points
 };
 
+/// From the last face on, so that the first of a point's faces stays.
 std::vector<std::uint32_t> TearJudge::Data::own_faces(const PolygonMesh& mesh, const TriangleMesh& level) {
   std::vector<std::uint32_t> out(level.mesh.points.size());
   for (std::uint32_t i = 0; i < mesh.points.size(); ++i)  // of points in no face, see BodyGrid::place
@@ -160,6 +165,8 @@ void TearJudge::Data::add(TriangleMesh triangles, Binding added) {
   levels.push_back({std::move(triangles), std::move(added)});
 }
 
+/// Against the normal that the frame of its first corner has carried along: a face that a limb turns over
+/// is not flipped, one that is turned inside out against its limb is.
 std::size_t TearJudge::Data::flipped(const TriangleMesh& level, std::span<const CurvePair> posed,
                                      Points points) const {
   std::size_t count = 0;
@@ -190,7 +197,8 @@ JudgeLevel TearJudge::Data::look_at(const Level& level, std::span<const CurvePai
   return now;
 }
 
-/// Halves of the edges before the last split that are to be halved on.
+/// Halves of the edges before the last split that are to be halved on. The widest; and, since a jump across
+/// a short edge is none of these, the most stretched of those whose edge is stretched unevenly.
 /// \param points  of the finest level, posed
 std::vector<Piece> TearJudge::Data::pieces(Points points) const {
   const TriangleMesh &before = levels[levels.size() - 2].triangles, &now = levels.back().triangles;
@@ -239,6 +247,7 @@ void TearJudge::Data::find_tears(std::span<const CurvePair> posed, Points points
   report.verdict = limits.tears.empty() ? TearVerdict::smooth : TearVerdict::tear;
   report.torn = limits.tears.size();
   report.steepest = limits.steepest;
+  // The widest first; those as wide in the order of edges.
   std::stable_sort(limits.tears.begin(), limits.tears.end(),
                    [](const Tear& a, const Tear& b) { return a.gap > b.gap; });
   limits.tears.resize(std::min(options.worst, limits.tears.size()));

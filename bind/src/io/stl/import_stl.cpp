@@ -9,15 +9,18 @@ namespace {
 
 using Facet = std::array<Vec3, 3>;
 
+/// By hand, since the C library's depends on the locale.
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+/// Writers disagree on capitals.
 bool is_word(std::string_view token, std::string_view word) {
   return std::equal(token.begin(), token.end(), word.begin(), word.end(),
                     [](char a, char b) { return lower(a) == b; });
 }
 
+/// Little-endian, as the format has it whatever the machine is.
 std::uint32_t count_in(std::string_view bytes) {
   std::uint32_t count = 0;
   for (std::size_t k = 0; k < 4; ++k)
@@ -25,7 +28,7 @@ std::uint32_t count_in(std::string_view bytes) {
   return count;
 }
 
-/// Something of some facets, told once.
+/// Something of some facets, told once: what one exporter does wrong it does a million times.
 struct Odd {
   std::size_t count = 0, first = 0;
   void see(std::size_t facet) {
@@ -38,7 +41,9 @@ struct Odd {
   }
 };
 
-/// Puts facets together to a mesh: corners at one place are one point.
+/// Puts facets together to a mesh: corners at one place are one point. Exactly at one: exporters write a
+/// point the same way in each of its facets, and a tolerance would glue sheets that only come near each
+/// other. Facets without area stay, so that facets keep their numbers, and `check` and `repair` see them.
 class StlMesh {
  public:
   StlMesh(const std::string& name, const Notes& notes) : name_(name), notes_(notes) {}
@@ -87,6 +92,7 @@ PolygonMesh read_binary(std::string_view bytes, const std::string& name, const N
   ByteCursor in(bytes, std::min(kStlCount, bytes.size()), name, false);
   in.at("header");
   const auto facets = static_cast<std::size_t>(in.number(Scalar::uint32));
+  // Before anything is made that large: the count is four bytes that anybody may have damaged.
   if (3 * static_cast<double>(facets) > id_limit) refuse_size(in);
   in.require(facets, kStlFacet);
   StlMesh mesh(name, notes);
@@ -120,6 +126,7 @@ class TextReader {
       : in_(bytes, name, false), mesh_(name, notes) {}
 
   PolygonMesh read() {
+    // Assemblies are written as one solid after another; they become one mesh.
     do read_solid();
     while (!in_.done());
     return mesh_.finish();
@@ -144,7 +151,7 @@ class TextReader {
       read_facet();
     }
     in_.at("");
-    in_.rest_of_line();
+    in_.rest_of_line();  // the name again, or another: nothing hangs on it
   }
 
   /// Nothing but the orientation is made of it, so that one that is none is no reason to refuse the facet.
@@ -177,6 +184,8 @@ class TextReader {
 
 }  // namespace
 
+/// By the size first: many binary files begin with "solid" too. One that is cut short or longer than it
+/// says is known by bytes that no text has in its first 84.
 StlKind stl_kind(std::string_view bytes) {
   const bool counted = bytes.size() >= kStlBegin;
   if (counted && (bytes.size() - kStlBegin) % kStlFacet == 0 &&
