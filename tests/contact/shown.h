@@ -36,8 +36,8 @@ inline Shown shown(Random& random, const std::vector<Vec3>& at, double speed) {
 
 enum class Felt { nothing, something, refusal };
 
-/// What a force does with what it remembers is, to the last bit, what it does without; but it may refuse a way
-/// there.
+/// What a force does with what it remembers is, to the last bit, what it does without; but it may refuse a
+/// way there.
 inline Felt same_without_memory(const Force& force, const Shown& s) {
   const std::vector<Vec3> none(s.p.size(), Vec3::Zero());
   std::vector<Vec3> with = none, without = none, torque = none, turned = none;
