@@ -1,7 +1,9 @@
 #include "runner/program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace tendril::test {
 namespace {
@@ -81,6 +83,64 @@ TEST(Statics, FollowsWhatNothingResistsOrNamesIt) {
   EXPECT_EQ(falling.code, 1);
   EXPECT_NE(falling.err.find("unheld: at load 0.5"), std::string::npos) << falling.err;
   EXPECT_NE(falling.err.find("nothing holds rod 0"), std::string::npos) << falling.err;
+}
+
+/// The numbers of a table's lines, without its header.
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(std::stod(field));
+  }
+  return rows;
+}
+
+/// A stiff bar clamped at its first node until t = 0.5: m g, and m g L / 2 against the weight's torque.
+TEST(Statics, SaysForcesAndTorquesOfSupportsAndSoDoesARunThatIsAskedTo) {
+  const Folder folder;
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [
+      {"name": "bar", "points": [[0, 0, 0], [1, 0, 0]], "nodes": 9, "orientation": [0, 0, 1],
+       "material": {"young": 1e10, "poisson": 0.3, "density": 1000}, "section": {"type": "circular", "radius": 0.01},
+       "anchors": [{"node": 0, "until": 0.5}]}],
+    "forces": [{"type": "gravity", "acceleration": [0, -9.81, 0]}],
+    "start": {"from": "equilibrium"},
+    "simulation": {"duration": 1, "frames": 3, "supports": true}
+  })");
+  folder.write("scene.json", scene.dump());
+  const double weight = 9.81 * 1000 * std::acos(-1.0) * 1e-4;
+  const Outcome outcome = folder.run("statics scene.json --load 0.5 --out out --json --no-pictures");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json support = Json::parse(outcome.out).at("supports").at(0);
+  EXPECT_EQ(support.at("anchor"), "/curve_pairs/0/anchors/0");
+  EXPECT_NEAR(support.at("force")[1].get<double>() / weight, 0.5, 1e-6);
+  EXPECT_NEAR(support.at("torque")[2].get<double>() / weight, 0.25, 1e-4);
+  const auto found = rows_of(bytes_of(folder / "out/supports.csv"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0][5], support.at("force")[1].get<double>());
+  EXPECT_EQ(found[0][9], support.at("torque")[2].get<double>());
+
+  ASSERT_EQ(folder.run("run scene.json --out moved --no-pictures").code, 0);
+  const std::string table = bytes_of(folder / "moved/supports.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')), "time,anchor,rod,node,fx,fy,fz,tx,ty,tz");
+  const auto moved = rows_of(table);
+  ASSERT_EQ(moved.size(), 3U);
+  EXPECT_EQ(std::vector(moved[0].begin(), moved[0].begin() + 4), (std::vector<double>{0, 0, 0, 0}));
+  EXPECT_NEAR(moved[0][5] / weight, 1.0, 1e-5);
+  EXPECT_NEAR(moved[0][9] / weight, 0.5, 1e-4);
+  EXPECT_EQ(std::vector(moved[2].begin(), moved[2].end()),
+            (std::vector<double>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+
+  scene["simulation"].erase("supports");
+  folder.write("scene.json", scene.dump());
+  ASSERT_EQ(folder.run("run scene.json --out plain --no-pictures").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "plain/supports.csv"));
+  EXPECT_EQ(bytes_of(folder / "plain/trajectory.csv"), bytes_of(folder / "moved/trajectory.csv"));
 }
 
 }  // namespace

@@ -73,8 +73,9 @@ OrderedJson summarize(const scene::SceneFile& file, const System& system, const 
   out["last_step"] = found.last_step;
   out["energy"] = {{"elastic", found.elastic}, {"potential", found.potential}};
   for (std::size_t a = 0; a < found.support.size(); ++a)
-    out["supports"].push_back(
-        {{"anchor", file.anchor_places[a]}, {"force", tendril::runner::to_json(found.support[a])}});
+    out["supports"].push_back({{"anchor", file.anchor_places[a]},
+                               {"force", tendril::runner::to_json(found.support[a])},
+                               {"torque", tendril::runner::to_json(found.torque[a])}});
   out["steps"] = found.steps;
   out["iterations"] = found.iterations;
   out["factorisations"] = found.factorisations;
@@ -88,14 +89,18 @@ OrderedJson summarize(const scene::SceneFile& file, const System& system, const 
 
 /// The masses, the mesh and pictures of the state found.
 /// \return  the names of the files
-std::vector<std::string> write_state(const Options& options, scene::SceneFile file, const State& state,
+std::vector<std::string> write_state(const Options& options, scene::SceneFile file, const Equilibrium& found,
                                      bind::PolygonMesh mesh, Phases& phases) {
-  file.outputs = {state.time};
+  file.outputs = {found.state.time};
   file.panels = 1;
   const int threads = thread_count(options.threads);
-  scene::SceneRun run(std::move(file), std::move(mesh), {.start = state, .threads = threads});
+  scene::SceneRun run(std::move(file), std::move(mesh), {.start = found.state, .threads = threads});
   Recorder recorder(run.file(), {options.out, true, options.double_precision}, phases);
-  recorder.take(run.snapshot(), run.mesh());
+  scene::Snapshot now = run.snapshot();
+  // Under the share of the loads that the equilibrium is of; a run is under all of them.
+  for (std::size_t a = 0; a < now.supports.size() && a < found.support.size(); ++a)
+    now.supports[a] = {found.support[a], found.torque[a]};
+  recorder.take(now, run.mesh());
   recorder.write_trajectory();
   if (!options.no_pictures) {
     const Phases::Timer timer(phases, Phases::draw);
@@ -141,7 +146,7 @@ int statics(const Options& options) {
   }
   OrderedJson summary = summarize(file, system, found);
   if (!options.out.empty()) {
-    summary["files"] = write_state(options, file, found.state, std::move(mesh), phases);
+    summary["files"] = write_state(options, file, found, std::move(mesh), phases);
     summary["wall_s"] = wall_seconds(phases);
     write_file_whole(options.out + "/summary.json", summary.dump(2) + "\n");
   }

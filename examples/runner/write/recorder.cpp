@@ -40,6 +40,7 @@ Recorder::Recorder(const scene::SceneFile& file, RecorderOptions options, Phases
 void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mesh) {
   trajectory_.add(snapshot);
   contact_.add(snapshot);
+  supports_.add(file_, snapshot);
   if (mesh != nullptr && options_.frames) {
     const Phases::Timer timer(phases_, Phases::write);
     const bool single = !options_.double_precision && bind::single_precision_serves(mesh->mesh().points);
@@ -69,6 +70,7 @@ void Recorder::look(const scene::Snapshot& snapshot) {
 void Recorder::write_trajectory() {
   const Phases::Timer timer(phases_, Phases::write);
   write("trajectory.csv", trajectory_.csv());
+  if (file_.supports) write("supports.csv", supports_.csv());
   if (file_.self_contact) write("rod_contacts.csv", contact_.rod_contacts());
   if (file_.mesh_self_contact.make) write("mesh_self_contacts.csv", contact_.mesh_self_contacts());
   if (file_.bodies.empty()) return;

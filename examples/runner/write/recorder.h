@@ -5,6 +5,7 @@
 #include "write/phases.h"
 
 #include <tendril/scene/scene_run.h>
+#include <tendril/scene/support_table.h>
 #include <tendril/scene/trajectory.h>
 
 namespace tendril::runner {
@@ -32,7 +33,7 @@ class Recorder {
   const scene::Snapshot& last() const { return last_; }
   Camera camera() const { return fit_.camera(); }
 
-  /// And the tables of solids and contacts, where the scene has any.
+  /// And the tables of solids, contacts and supports, where the scene has any or asks for them.
   void write_trajectory();
   void write(const std::string& name, const std::string& bytes);
   /// Files that another wrote into the folder.
@@ -51,6 +52,7 @@ class Recorder {
   std::size_t count_ = 0;
   scene::Trajectory trajectory_;
   ContactTables contact_;
+  scene::SupportTable supports_;
   std::vector<std::string> files_;
   std::vector<scene::Snapshot> panels_;
   scene::Snapshot last_;

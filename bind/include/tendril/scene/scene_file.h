@@ -52,6 +52,7 @@ struct SceneFile {
   StaticsOptions statics;                    ///< the load from which its equilibrium is followed
   double duration = 0.0;                     ///< positive
   std::vector<double> outputs;               ///< times, ascending from 0, none beyond the duration
+  bool supports = false;                     ///< whether outputs say what anchors do: Snapshot::supports
   ViewOptions view;                          ///< how to draw it
   int panels = 12;                           ///< pictures of a contact sheet, 1 to 100
   bool draw_axis = false;                    ///< whether curve-pairs are drawn over the mesh

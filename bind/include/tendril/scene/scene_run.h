@@ -2,6 +2,7 @@
 
 #include <tendril/base/export.h>
 #include <tendril/dynamics/simulation.h>
+#include <tendril/dynamics/supports.h>
 #include <tendril/scene/bound_mesh.h>
 
 #include <functional>
@@ -29,6 +30,7 @@ struct Snapshot {
   std::vector<MeshContactPoint> mesh_contacts = {};  ///< of the mesh with them
   std::vector<MeshSelfContactPoint> mesh_self_contacts = {};  ///< and with itself
   std::vector<RodContactPoint> rod_contacts = {};             ///< of rods with each other and themselves
+  std::vector<Support> supports = {};  ///< per anchor of the scene; empty unless SceneFile::supports
 };
 
 /// Seconds of wall time, outputs not counted.

@@ -83,6 +83,7 @@ void read_simulation(const JsonNode& simulation, SceneFile& out) {
   if (simulation.has("degree"))
     options.degree = static_cast<int>(simulation.at("degree").integer(1, kMaxDegree));
   options.parametrisation = read_parametrisation(simulation);
+  out.supports = simulation.has("supports") && simulation.at("supports").value().get<bool>();
   if (simulation.has("work_limit")) options.work_limit = simulation.at("work_limit").integer(1, 1L << 52);
 }
 

@@ -123,6 +123,7 @@ struct SceneRun::Implementation : Follower {
     for (MeshSelfContactPoint& at : out.mesh_self_contacts)
       for (std::size_t& face : at.face) face = contact_face[face];
     out.rod_contacts = rod_contacts_of(file, state);
+    if (file.supports) out.supports = supports_of(system, state);
     if (mesh) {
       const Stopwatch watch(seconds.update);
       mesh->update(pairs, threads);

@@ -60,6 +60,7 @@ struct Equilibrium {
   double elastic = 0.0;       ///< energy
   double potential = 0.0;     ///< of the loads that have one, at their last factor
   std::vector<Vec3> support;  ///< per anchor, the force it puts on its node; 0 where it holds no position
+  std::vector<Vec3> torque;   ///< likewise on its frame, about the node; 0 where it holds no frame
   long steps = 0;             ///< of load or time
   long iterations = 0;        ///< of Newton's method
   long factorisations = 0;    ///< of the tangent

@@ -230,7 +230,10 @@ void Search::report() {
   out_.potential = at_.load * at_.potential;
   out_.force_scale = problem_.force_scale(at_);
   out_.residual = out_.force_scale > 0.0 ? problem_.largest(at_.residual) / out_.force_scale : 0.0;
-  out_.support = problem_.support(at_);
+  for (const Support& support : problem_.supports(at_)) {
+    out_.support.push_back(support.force);
+    out_.torque.push_back(support.torque);
+  }
   out_.stability = stability_at(system_, at_.state, at_.load, unbalanced());
   out_.iterations = newton_.iterations;
   out_.factorisations = newton_.tangent().factorisations;

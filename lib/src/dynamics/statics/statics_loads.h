@@ -31,6 +31,8 @@ class StaticLoads {
   double sum() const { return sum_; }
   /// Forces on the nodes last added.
   const std::vector<Vec3>& force() const { return force_; }
+  /// And the torques on them.
+  const std::vector<Vec3>& torque() const { return torque_; }
 
  private:
   /// One of the scene's forces: what acts, or null and an acceleration of every mass.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/scene/model.h"
+#include "dynamics/rhs/workspace.h"
 
 namespace tendril {
 namespace {
@@ -220,18 +220,38 @@ double StaticProblem::force_scale(const StaticState& at) const {
   return std::max({coordinates_.energy_scale() / coordinates_.length(), pushed(at), goal(at) / kBalanced});
 }
 
-std::vector<Vec3> StaticProblem::support(const StaticState& at) {
+/// On held frames, by the springs.
+std::vector<Vec3> StaticProblem::elastic_torques(const StaticState& at) {
+  std::vector<Vec3> torques(system_.node_count(), Vec3::Zero());
+  const Model& model = model_of(system_);
+  double energy = 0.0;
+  Eigen::VectorXd gradient;
+  if (!system_.elastic_gradient(at.state, at.state.time, at.state.y, energy, gradient, *work_).ok())
+    return {};
+  for (std::size_t i = 0; i < torques.size(); ++i) {
+    if (!coordinates_.holds_frame(i)) continue;
+    const Vec3 t = work_->kinematics.frame.z[i];
+    torques[i] = -t.cross(work_->gradient.tangent[i]);
+    if (model.has_twist(i)) torques[i] -= work_->gradient.spin[i] * t;
+  }
+  return torques;
+}
+
+std::vector<Support> StaticProblem::supports(const StaticState& at) {
+  const std::vector<Vec3> torques = elastic_torques(at);
   Eigen::VectorXd loads;
   double unused = 0.0;
-  std::vector<Vec3> support;
-  if (!loads_.add(at.state, loads, unused, *work_).ok()) return support;
+  if (torques.empty() || !loads_.add(at.state, loads, unused, *work_).ok()) return {};
+  const double share = loads_.any() ? at.load : 0.0;
+  std::vector<Support> supports;
   for (const Anchor& anchor : system_.scene().anchors) {
     const std::size_t i = system_.rods()[anchor.rod].first + anchor.node;
     const Vec3 elastic = at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i));
-    const Vec3 load = loads_.any() ? Vec3(at.load * loads_.force()[i]) : Vec3(Vec3::Zero());
-    support.push_back(anchor.holds_position ? Vec3(elastic - load) : Vec3(Vec3::Zero()));
+    Support& support = supports.emplace_back();
+    if (anchor.holds_position) support.force = elastic - share * loads_.force()[i];
+    if (coordinates_.holds_frame(i)) support.torque = -torques[i] - share * loads_.torque()[i];
   }
-  return support;
+  return supports;
 }
 
 }  // namespace tendril

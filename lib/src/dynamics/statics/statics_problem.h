@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tendril/dynamics/statics.h>
+#include <tendril/dynamics/supports.h>
 
 #include "statics_loads.h"
 
@@ -48,11 +49,12 @@ class StaticProblem {
   double force_scale(const StaticState& at) const;
   /// Largest force, or torque over the length.
   double largest(const Eigen::VectorXd& residual) const;
-  /// The forces of anchors on their nodes.
-  std::vector<Vec3> support(const StaticState& at);
+  /// What anchors do to their nodes; empty where that cannot be evaluated.
+  std::vector<Support> supports(const StaticState& at);
 
  private:
   double pushed(const StaticState& at) const;
+  std::vector<Vec3> elastic_torques(const StaticState& at);
   double rounding(const StaticState& at) const;
   void add_turning(const StaticState& at, std::vector<Eigen::Triplet<double>>& out) const;
   void put_turning(std::size_t k, std::size_t j, double c, const Vec3& t, const Vec3& dk, const Vec3& dj,
