@@ -381,14 +381,12 @@ Evaluation elastic_energy(const Model& model, const State& reference, const Kine
   return bend_at_held_nodes(model, reference, false, kin, grad, energy, none);
 }
 
-void relax(const Model& model, bool gyroscopic, const Kinematics& kin, Gradient& grad) {
-  assert(gyroscopic ? kin.has_rates() : kin.has_positions());
+void relax(const Kinematics& kin, Gradient& grad) {
+  assert(kin.has_positions());
   grad.made.from(kin);
   for (auto* vectors : {&grad.bend, &grad.before, &grad.after, &grad.tangent, &grad.twist_tangent})
     vectors->set_zero();
   for (auto* numbers : {&grad.length, &grad.spin, &grad.twist_torque}) numbers->set_zero();
-  for (const Segment& s : model.segments)
-    if (s.twist && gyroscopic) gather_all(model, s, kin, grad);
 }
 
 }  // namespace tendril

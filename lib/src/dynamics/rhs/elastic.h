@@ -20,6 +20,6 @@ Evaluation elastic_energy(const Model& model, const State& reference, const Kine
                           double& energy);
 
 /// The gradient of no springs at all.
-void relax(const Model& model, bool gyroscopic, const Kinematics& kin, Gradient& grad);
+void relax(const Kinematics& kin, Gradient& grad);
 
 }  // namespace tendril

@@ -223,6 +223,11 @@ const double* numbers(const std::vector<Vec3>& v) {
   return v.empty() ? nullptr : v.front().data();
 }
 
+void take_spins(const Model& model, const Model::Segment& s, const Eigen::VectorXd& y, Kinematics& kin) {
+  const double* spin = y.data() + model.spin_begin() + model.twist_index[s.first];
+  std::copy(spin, spin + (s.end - s.first), &kin.spin[s.first]);
+}
+
 Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y, Motion what,
                        Kinematics& kin) {
   for (const Model::Segment& s : model.segments) {
@@ -232,8 +237,7 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
     if (s.twist) {
       const Eigen::Index k = model.twist_index[s.first];
       from = {numbers(reference.tangent), numbers(reference.director), y.data() + model.theta_begin() + k};
-      const double* spin = y.data() + model.spin_begin() + k;
-      std::copy(spin, spin + (s.end - s.first), &kin.spin[s.first]);
+      take_spins(model, s, y, kin);
     }
     const auto fill =
         s.twist ? (positions ? direct_positions : direct_all) : (positions ? bisect_positions : bisect_all);
@@ -248,6 +252,14 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
 }
 
 }  // namespace
+
+void take_velocities(const Model& model, const Eigen::VectorXd& y, Kinematics& kin) {
+  ++kin.number;
+  kin.whole = false;
+  take_apart(y.data() + model.v_begin(), model.nodes, kin.v);
+  for (const Model::Segment& s : model.segments)
+    if (s.twist) take_spins(model, s, y, kin);
+}
 
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, Kinematics& kin) {

@@ -12,4 +12,7 @@ constexpr double kTurnedTooFar = 0.4;  ///< least 1 + t_s . t
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, Kinematics& kin);
 
+/// The velocities and spins of y alone, of what is not held.
+void take_velocities(const Model& model, const Eigen::VectorXd& y, Kinematics& kin);
+
 }  // namespace tendril

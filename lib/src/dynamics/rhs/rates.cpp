@@ -196,16 +196,13 @@ bool add_spin_torques(const Model& model, const LoadColumns& loads, Eigen::Vecto
 
 }  // namespace
 
-Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
+Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                  Eigen::VectorXd& dy, System::Workspace& work) {
   auto& [kin, grad, loads, pull] = work;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
   if (const Evaluation at = kinematics(model, reference, t, y, what, kin); !at.ok()) return at;
   double heat = 0.0;
-  if (!springs)
-    relax(model, true, kin, grad);
-  else if (const Evaluation at = elastic(model, reference, {true, true}, kin, grad, heat); !at.ok())
-    return at;
+  if (const Evaluation at = elastic(model, reference, {true, true}, kin, grad, heat); !at.ok()) return at;
   double power = -heat;
   if (model.loaded) {
     if (const Evaluation at = add_external(model, reference, t, kin, loads, power); !at.ok()) return at;
@@ -236,6 +233,20 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
   return finite ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
 }
 
+Evaluation power_of_loads(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                          double& power, System::Workspace& work) {
+  auto& [kin, grad, loads, pull] = work;
+  power = 0.0;
+  if (!model.loaded) {
+    take_velocities(model, y, kin);
+  } else {
+    if (const Evaluation at = kinematics(model, reference, t, y, Motion::all, kin); !at.ok()) return at;
+    if (const Evaluation at = add_external(model, reference, t, kin, loads, power); !at.ok()) return at;
+  }
+  if (model.damped) power += damping_power(model, kin);
+  return std::isfinite(power) ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
+}
+
 Evaluation refusal(const Model& model, const State& state, System::Workspace& work) {
   const auto asked = [](const Model::Acting& acting) { return acting.refuses; };
   if (std::none_of(model.acting.begin(), model.acting.end(), asked)) return {};
@@ -259,7 +270,7 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
   auto& [kin, grad, loads, pull] = work;
   if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, kin); !at.ok())
     return at;
-  relax(model, false, kin, grad);
+  relax(kin, grad);
   StateView state = view(model, reference.time, kin, loads);
   Loads to = no_loads(kin, loads);
   std::size_t refused = Loads::kNone;

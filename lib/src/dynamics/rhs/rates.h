@@ -4,9 +4,14 @@
 
 namespace tendril {
 
-/// The equations of motion: y' at (t, y), with or without the springs and their viscous parts.
-Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y, bool springs,
+/// The equations of motion: y' at (t, y).
+Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                  Eigen::VectorXd& dy, System::Workspace& work);
+
+/// The last number of y' alone, the power of what has no energy, where no spring resists and nothing that is
+/// held moves: damping, and the forces of the scene.
+Evaluation power_of_loads(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
+                          double& power, System::Workspace& work);
 
 /// What forces see, from kinematics with all rates.
 StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns& loads);

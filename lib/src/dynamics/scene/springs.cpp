@@ -26,13 +26,13 @@ EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
   a.z = e.dot(frame.z);
   const double w = a.x * a.x + a.y * a.y;
   a.st = std::sqrt(w);
-  a.t = std::atan2(a.st, a.z);
   if (w <= lanes::kNearSquare && a.z > 0.0) {
     const lanes::Arc arc = lanes::near_arc(w);
     a.ratio = arc.ratio;
     a.rise = arc.rise - (arc.ratio + arc.rise * w);
     a.t = arc.ratio * a.st;
   } else {
+    a.t = std::atan2(a.st, a.z);
     a.ratio = a.t / a.st;
     a.rise = (a.z - a.ratio) / w;
   }

@@ -107,6 +107,14 @@ struct Rodas::Implementation {
     return {};
   }
 
+  /// Springs that only store energy do no work; they are left out where nothing else asks for their forces.
+  Evaluation power_half_way(const Model& model, const State& state, double h, double& power) {
+    if (!moves && !resists) return power_of_loads(model, state, state.time + h / 2, middle, power, *work);
+    const Evaluation ok = rates(model, state, state.time + h / 2, middle, middle_rate, *work);
+    if (ok.ok()) power = middle_rate[model.work_index()];
+    return ok;
+  }
+
   /// Work done over the step, by Simpson's rule with the cubic through both ends' positions and velocities.
   Evaluation add_work(const State& state, double h, Eigen::VectorXd& y) {
     if (!works) return {};
@@ -125,13 +133,10 @@ struct Rodas::Implementation {
     bend(model.x_begin(), model.x_begin() + 2 * model.bodies_span(), model.bodies_span());
     bend_turns(model, h, state.y, y, middle);
     evaluations += 2;
-    // Springs that only store energy do no work; they are left out where nothing else asks for their forces.
-    if (const Evaluation ok =
-            rates(model, state, state.time + h / 2, middle, moves || resists, half_way, *work);
-        !ok.ok())
-      return ok;
+    double half_way = 0.0;
+    if (const Evaluation ok = power_half_way(model, state, h, half_way); !ok.ok()) return ok;
     if (const Evaluation ok = system.derivative(state, state.time + h, y, end, *work); !ok.ok()) return ok;
-    y[last] = state.y[last] + h / 6 * (rate[last] + 4 * half_way[last] + end[last]);
+    y[last] = state.y[last] + h / 6 * (rate[last] + 4 * half_way + end[last]);
     end_time = state.time + h;
     end_y = y;
     return {};
@@ -142,7 +147,7 @@ struct Rodas::Implementation {
   std::unique_ptr<StiffSolver> solver;
   Eigen::VectorXd rate;
   std::array<Eigen::VectorXd, 6> stage;
-  Eigen::VectorXd middle, half_way;
+  Eigen::VectorXd middle, middle_rate;
   Eigen::VectorXd end, end_y;  ///< derivative at the end of the last step tried; empty when there is none
   double end_time = 0.0;
   bool works = false;    ///< whether anything but springs and energies acts

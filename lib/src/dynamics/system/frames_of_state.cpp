@@ -2,6 +2,7 @@
 
 #include "dynamics/body/bodies.h"
 #include "dynamics/rhs/kinematics.h"
+#include "dynamics/vector/column_access.h"
 
 namespace tendril {
 namespace {
@@ -43,19 +44,43 @@ Evaluation all_frames(const Model& model, const State& state, Kinematics& kin) {
   return {};
 }
 
-/// Makes the present frames of a rod with twist the reference, and follows its twists beyond half a turn.
-void rebase_twisted(const Model& model, const NodeRange& rod, const Kinematics& kin, State& state) {
-  for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
-    const Frame frame = kin.frame[i];
-    state.tangent[i] = frame.z;
+/// Where the reference of a segment's nodes stands, three numbers a node or one.
+struct ToReference {
+  double* __restrict tangent;
+  double* __restrict director;
+  double* __restrict twist;
+};
+
+/// Makes the present frames of nodes [first, end) the reference, and follows the twists of the edges that
+/// begin there beyond half a turn: by the angle of m_b about t_b from m_a, carried by the smallest rotation.
+TENDRIL_LANES void take_reference(std::size_t first, std::size_t end, const Kinematics& kin,
+                                  const ToReference& to) {
+  const lanes::Reader m(kin.frame.y), t(kin.frame.z);
+  TENDRIL_LOOP
+  for (std::size_t i = first; i < end; ++i) {
+    const lanes::V3 ta = t.at(i), tb = t.at(i + 1), ma = m.at(i), mb = m.at(i + 1);
     // Rounding would let the director lean towards the tangent over many steps.
-    state.director[i] = (frame.y - frame.y.dot(frame.z) * frame.z).normalized();
-    state.y[model.theta_begin() + model.twist_index[i]] = 0.0;
-    state.y[model.spin_begin() + model.twist_index[i]] = kin.spin[i];
-    if (i + 1 == rod.first + rod.count) continue;
-    const double raw = twist_angle(frame, kin.frame[i + 1]);
-    state.twist[i] += std::remainder(raw - state.twist[i], 2 * M_PI);
+    const lanes::V3 across = ma - lanes::dot(ma, ta) * ta;
+    const lanes::V3 director = (1.0 / lanes::norm(across)) * across;
+    const lanes::V3 carried = ma - (lanes::dot(tb, ma) / (1.0 + lanes::dot(ta, tb))) * (ta + tb);
+    const double raw = lanes::angle(lanes::dot(lanes::cross(carried, mb), tb), lanes::dot(carried, mb));
+    to.tangent[3 * i] = ta.x;
+    to.tangent[3 * i + 1] = ta.y;
+    to.tangent[3 * i + 2] = ta.z;
+    to.director[3 * i] = director.x;
+    to.director[3 * i + 1] = director.y;
+    to.director[3 * i + 2] = director.z;
+    to.twist[i] += lanes::less_turns(raw - to.twist[i]);
   }
+}
+
+void rebase_twisted(const Model& model, const Model::Segment& segment, const Kinematics& kin, State& state) {
+  take_reference(segment.first, segment.end, kin,
+                 {state.tangent.front().data(), state.director.front().data(), state.twist.data()});
+  const Eigen::Index k = model.twist_index[segment.first];
+  const auto count = static_cast<Eigen::Index>(segment.end - segment.first);
+  state.y.segment(model.theta_begin() + k, count).setZero();
+  std::copy_n(kin.spin.data() + segment.first, count, state.y.data() + model.spin_begin() + k);
 }
 
 }  // namespace
@@ -71,12 +96,13 @@ Evaluation System::rebase(State& state, Workspace& work) const {
     state.y.segment<3>(at) = kin.p[i];
     state.y.segment<3>(model.v_begin() + at) = kin.v[i];
   }
+  for (const Model::Segment& segment : model.segments)
+    if (segment.twist) rebase_twisted(model, segment, kin, state);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const NodeRange& rod = model.rods[r];
-    if (model.has_twist(rod.first)) {
-      rebase_twisted(model, rod, kin, state);
-      continue;
-    }
+    // No edge begins at a rod's last node.
+    state.twist[rod.first + rod.count - 1] = 0.0;
+    if (model.has_twist(rod.first)) continue;
     const std::size_t seed = model.seed[r];
     state.director[seed] = director_of_seed(model, state, seed, kin);
     state.tangent[seed] = kin.frame.z[seed];

@@ -66,7 +66,7 @@ State System::rest_state(double time) const {
 
 Evaluation System::derivative(const State& reference, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy,
                               Workspace& work) const {
-  return rates(*model_, reference, t, y, true, dy, work);
+  return rates(*model_, reference, t, y, dy, work);
 }
 
 Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,
