@@ -61,7 +61,8 @@ TENDRIL_LANES void take_reference(std::size_t first, std::size_t end, const Kine
     const lanes::V3 ta = t.at(i), tb = t.at(i + 1), ma = m.at(i), mb = m.at(i + 1);
     // Rounding would let the director lean towards the tangent over many steps.
     const lanes::V3 across = ma - lanes::dot(ma, ta) * ta;
-    const lanes::V3 director = (1.0 / lanes::norm(across)) * across;
+    const double length = lanes::norm(across);
+    const lanes::V3 director{across.x / length, across.y / length, across.z / length};
     const lanes::V3 carried = ma - (lanes::dot(tb, ma) / (1.0 + lanes::dot(ta, tb))) * (ta + tb);
     const double raw = lanes::angle(lanes::dot(lanes::cross(carried, mb), tb), lanes::dot(carried, mb));
     to.tangent[3 * i] = ta.x;
