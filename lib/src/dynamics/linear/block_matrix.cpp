@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/vector/lanes.h"
+#include "dynamics/vector/pack.h"
 
 namespace tendril {
 namespace {
 
-/// Four numbers in a register; at any address.
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+using Four = lanes::LoosePack;
 
 TENDRIL_INLINE const Four& four(const std::array<double, 4>& a) {
   return *reinterpret_cast<const Four*>(a.data());
@@ -17,9 +16,6 @@ TENDRIL_INLINE const Four& four(const std::array<double, 4>& a) {
 TENDRIL_INLINE Four& four(std::array<double, 4>& a) {
   return *reinterpret_cast<Four*>(a.data());
 }
-
-template <int B>
-using Block = typename BlockMatrix<B>::Block;
 
 /// to -= a b
 template <int B>
@@ -221,7 +217,26 @@ TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, c
   multiply_add_blocks<4>(p, d, u, l, s, x, y);
 }
 
+template <int B>
+TENDRIL_INLINE void add_each(std::size_t count, const Block<B>* from, Block<B>* const* to) {
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t c = 0; c < B; ++c) four(to[k]->column[c]) += four(from[k].column[c]);
+}
+TENDRIL_LANES void add_three(std::size_t count, const Block<3>* from, Block<3>* const* to) {
+  add_each<3>(count, from, to);
+}
+TENDRIL_LANES void add_four(std::size_t count, const Block<4>* from, Block<4>* const* to) {
+  add_each<4>(count, from, to);
+}
+
 }  // namespace
+
+void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to) {
+  add_three(count, from, to);
+}
+void add_blocks(std::size_t count, const Block<4>* from, Block<4>* const* to) {
+  add_four(count, from, to);
+}
 
 template <int B>
 void BlockMatrix<B>::set_zero() {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <tendril/base/types.h>
-
-#include <array>
 #include <vector>
 
 #include "block_pattern.h"
+#include "dynamics/vector/block.h"
 
 namespace tendril {
 
@@ -14,23 +12,7 @@ namespace tendril {
 template <int B>
 class BlockMatrix {
  public:
-  /// Columns of four numbers, so that a column is a vector register whatever B.
-  struct Block {
-    std::array<std::array<double, 4>, B> column{};
-
-    void add(const Mat3& k) {
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t r = 0; r < 3; ++r)
-          column[c][r] += k(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
-    }
-    /// In the column, or the row, of the angle.
-    void add_column(const Vec3& k) {
-      for (std::size_t r = 0; r < 3; ++r) column[B - 1][r] += k[static_cast<Eigen::Index>(r)];
-    }
-    void add_row(const Vec3& k) {
-      for (std::size_t c = 0; c < 3; ++c) column[c][3] += k[static_cast<Eigen::Index>(c)];
-    }
-  };
+  using Block = tendril::Block<B>;
 
   BlockMatrix(const BlockPattern& pattern, bool symmetric)
       : pattern_(&pattern),
@@ -73,6 +55,10 @@ class BlockMatrix {
   std::vector<Block> diagonal_, upper_, lower_;
   bool symmetric_;
 };
+
+/// Adds blocks to those at the addresses given, one each.
+void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to);
+void add_blocks(std::size_t count, const Block<4>* from, Block<4>* const* to);
 
 extern template class BlockMatrix<3>;
 extern template class BlockMatrix<4>;

@@ -112,23 +112,15 @@ class BlockSolver : public StiffSolver {
   long differentiate(const State& state, const Eigen::VectorXd& rate) override {
     to_x_.restart();
     if (to_u_) to_u_->restart();
-    double energy = 0.0;
-    if (fails(system_.elastic_gradient(state, state.time, state.y, energy, gradient_, work_))) return -1;
-    const bool viscous = turning_.has_value();
-    if (viscous && fails(add_viscous_gradient(state))) return -1;
-    visit_stiffness(model_, state, work_.kinematics, work_.gradient, viscous, -1.0, to_x_);
+    if (fails(take_gradient(state))) return -1;
+    visit_stiffness(model_, state, work_.kinematics, work_.gradient, turning_.has_value(), -1.0, to_x_);
     long evaluations = 1;
     if constexpr (B == 4) {
-      if (viscous) visit_resistance(model_, work_.kinematics, *to_u_);
-      // The rates of the frames are needed from here on.
-      if (fails(kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics))) return -1;
+      if (turning_) visit_resistance(model_, work_.kinematics, *to_u_);
       add_turning();
       if (turning_ && fails(turning_->add(state, rate, work_.kinematics, to_x_))) return -1;
     }
-    if (loaded_ || !model_.bodies.empty()) {
-      if (fails(kinematics(model_, state, state.time, state.y, Motion::all, work_.kinematics))) return -1;
-      if (by_u_) rigid_.add(work_.kinematics.bodies, rate, by_x_, *by_u_);
-    }
+    if (by_u_) rigid_.add(work_.kinematics.bodies, rate, by_x_, *by_u_);
     if (loaded_) {
       StateView seen = view(model_, state.time, work_.kinematics, work_.loads);
       for (const Model::Acting& acting : model_.acting) {
@@ -248,58 +240,49 @@ class BlockSolver : public StiffSolver {
             model_.has_after(i) ? model_.carrier[i + 1] : EdgeStiffness::kNone};
   }
 
-  /// Whether what carries the node before, at or after i feels it.
-  bool feels(std::size_t i, std::size_t a) const { return model_.feels[i + a - 1] != 0; }
-
-  /// Blocks by the vectors along the two edges of node i, as blocks by its three positions.
-  void add_by_nodes(std::size_t i, const Mat3 (&k)[2][2], BlockRoute<B>& to) const {
-    const auto nodes = around(i);
-    const auto add = [&](std::size_t a, std::size_t b, const Mat3& block) {
-      if (nodes[a] != EdgeStiffness::kNone && nodes[b] != EdgeStiffness::kNone && feels(i, a))
-        to.block(nodes[a], nodes[b], block);
-    };
-    add(0, 0, k[0][0]);
-    add(0, 1, k[0][1] - k[0][0]);
-    add(0, 2, -k[0][1]);
-    add(1, 0, k[1][0] - k[0][0]);
-    add(1, 1, k[0][0] - k[0][1] - k[1][0] + k[1][1]);
-    add(1, 2, k[0][1] - k[1][1]);
-    add(2, 0, -k[1][0]);
-    add(2, 1, k[1][0] - k[1][1]);
-    add(2, 2, k[1][1]);
-  }
-
-  /// The workspace's gradient by the spins is no longer that of the springs alone; the gradient's is.
+  /// Needs the springs' gradient and all rates.
   void add_turning() {
+    constexpr std::size_t kPack = TurningPack::kNodes;
     connections_.clear();
-    for (std::size_t i = 0; i < model_.nodes; ++i) {
-      if (!model_.has_twist(i) || model_.holds_frame(i)) continue;
-      const TurningTerms terms =
-          turning_terms(model_, i, gradient_[model_.v_begin() + model_.twist_index[i]], work_.kinematics);
-      add_by_nodes(i, terms.by_x, to_x_);
-      add_by_nodes(i, terms.by_v, *to_u_);
-      const auto nodes = around(i);
-      const Vec3 spin[3] = {-terms.by_spin[0], terms.by_spin[0] - terms.by_spin[1], terms.by_spin[1]};
-      for (std::size_t a = 0; a < 3; ++a)
-        if (nodes[a] != EdgeStiffness::kNone && feels(i, a)) to_u_->column(nodes[a], i, spin[a]);
-      connections_.push_back(
-          {i, nodes, {-terms.connection[0], terms.connection[0] - terms.connection[1], terms.connection[1]}});
+    for (const NodeRange& rod : model_.rods) {
+      if (!model_.has_twist(rod.first)) continue;
+      const std::size_t count = rod.count < kPack ? 1 : kPack;
+      const std::size_t end = rod.first + rod.count;
+      for (std::size_t i = rod.first; i < end; i += count) add_turning(std::min(i, end - count), i, count);
     }
   }
 
-  /// After it the workspace holds the gradient with its viscous part, and the rates.
-  Evaluation add_viscous_gradient(const State& state) {
+  /// That of `count` nodes from `first` on, of which those before `from` have been.
+  void add_turning(std::size_t first, std::size_t from, std::size_t count) {
+    constexpr std::size_t kBlocks = TurningPack::kBlocks;
+    turning_terms(model_, first, count, work_.kinematics, work_.gradient, turns_);
+    const std::size_t skip = kBlocks * (from - first);
+    const auto place = [&](std::size_t k) {
+      return place_of_turning(model_, from + k / kBlocks, k % kBlocks);
+    };
+    to_x_.blocks(kBlocks * count - skip, &turns_.by_x[skip], place);
+    to_u_->blocks(kBlocks * count - skip, &turns_.by_v[skip], place);
+    for (std::size_t i = from; i < first + count; ++i) {
+      if (model_.holds_frame(i)) continue;
+      const auto& by = turns_.connection[i - first];
+      connections_.push_back(
+          {i,
+           around(i),
+           {Eigen::Map<const Vec3>(by[0]), Eigen::Map<const Vec3>(by[1]), Eigen::Map<const Vec3>(by[2])}});
+    }
+  }
+
+  /// After it the workspace holds the kinematics, with rates where they matter, and the springs' gradient,
+  /// with its viscous part.
+  Evaluation take_gradient(const State& state) {
     double heat = 0.0;
     auto& [kin, grad, loads, pull] = work_;
-    if (const Evaluation e = kinematics(model_, state, state.time, state.y, Motion::all, kin); !e.ok())
-      return e;
-    if (const Evaluation e = elastic(model_, state, {.viscous = true, .gyroscopic = false}, kin, grad, heat);
-        !e.ok())
-      return e;
+    const Motion what = rates_matter_ || turning_ ? Motion::all : Motion::positions;
+    if (const Evaluation e = kinematics(model_, state, state.time, state.y, what, kin); !e.ok()) return e;
+    const Inner inner{.viscous = turning_.has_value(), .gyroscopic = false};
+    if (const Evaluation e = elastic(model_, state, inner, kin, grad, heat); !e.ok()) return e;
     no_loads(kin, loads);
     pull_back(model_, kin, grad, loads, pull);
-    for (std::size_t i = 0; i < model_.nodes; ++i)
-      if (model_.has_twist(i)) gradient_[model_.v_begin() + model_.twist_index[i]] = grad.spin[i];
     return {};
   }
 
@@ -369,7 +352,7 @@ class BlockSolver : public StiffSolver {
   std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
   BodyBlocks<B> rigid_;
   std::optional<ViscousTurning> turning_;
-  Eigen::VectorXd gradient_;
+  TurningPack turns_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "dynamics/vector/lanes.h"
 #include "spring_stiffness.h"
+#include "springs.h"
 
 namespace tendril {
 namespace {
@@ -12,6 +13,13 @@ namespace {
 Mat3 project(const Vec3& a, const Mat3& m, const Vec3& b) {
   const Mat3 left = m - a * (a.transpose() * m);
   return left - (left * b) * b.transpose();
+}
+
+/// Second derivative of g.n by d, n = d / |d|.
+Mat3 curvature_of_unit(const Vec3& n, double inverse_length, const Vec3& g) {
+  const Vec3 across = g - g.dot(n) * n;
+  return -(inverse_length * inverse_length) *
+         (g.dot(n) * projector(n) + n * across.transpose() + across * n.transpose());
 }
 
 /// The edges around edge i that its springs see, in the order of their nodes: i - 1, i, i + 1; at a child's
@@ -169,10 +177,10 @@ void to_nodes(const Neighbourhood& n, const Kinematics& kin, const ByEdges& b, c
 
 }  // namespace
 
-void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                    const Kinematics& kin, const Gradient& grad, bool viscous, EdgeStiffness& to) {
+void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const Kinematics& kin,
+                    const Gradient& grad, bool viscous, EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
-  SpringStiffness springs = spring_stiffness(model, i, reference, kin, grad, viscous);
+  SpringStiffness springs = spring_stiffness(model, i, kin, grad, viscous);
   const Vec3 g_edge = gradient_by_edge(i, kin, grad, springs);
   if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
   ByEdges edges = by_edges(n, kin, springs);
@@ -336,19 +344,13 @@ Mat3 turned_pull(const Model& model, std::size_t i, const Kinematics& kin) {
 
 namespace {
 
-/// Slope and curvature of 1/2 K angle^2 by the cosine z of the angle.
-struct ByCosine {
-  double slope, curvature;
-};
+using lanes::ByCosine;
+
+/// Of 1/2 K angle^2, by sine and cosine of the angle.
 ByCosine by_cosine(double stiffness, double sine, double z) {
   const bool near = z > 0.0 && sine * sine <= lanes::kWideSquare;
   const double angle = near ? sine * lanes::wide_asin_ratio(sine * sine) : std::atan2(sine, z);
-  if (sine > 1e-4) {
-    const double g = stiffness * angle / sine;
-    return {-g, (stiffness - g * z) / (sine * sine)};
-  }
-  // angle / sine = 1 + angle^2 / 6 + ..., so the curvature tends to K / 3 (1 + 2 angle^2 / 5).
-  return {-stiffness * (1.0 + angle * angle / 6), stiffness / 3 * (1.0 + 0.4 * angle * angle)};
+  return lanes::by_cosine(stiffness, angle, 0.0, sine, z);
 }
 
 /// Of e(d).t by d, for a spring on the cosine between them.

@@ -36,8 +36,8 @@ struct EdgeStiffness {
 /// With `viscous` the workspace must hold the rates and the gradient with its viscous part: then what is
 /// weighted with slopes counts that part too. How the directions of the viscous forces turn:
 /// turned_resistance.
-void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const State& reference,
-                    const Kinematics& kin, const Gradient& grad, bool viscous, EdgeStiffness& to);
+void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, const Kinematics& kin,
+                    const Gradient& grad, bool viscous, EdgeStiffness& to);
 
 /// Resistance of edge i in the same coordinates: sum k grad q grad q^T over stretch, the two deviations and
 /// the twist. Times the viscosity it is minus the viscous forces' derivative by the velocities.

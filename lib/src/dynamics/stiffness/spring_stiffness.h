@@ -4,9 +4,8 @@
 
 namespace tendril {
 
-/// Derivatives of one edge's bending and twist springs by what they see: the unit edge e, and tangent t and
-/// angle theta at its two nodes, in the expansion t_s + d, theta about the present frames. Blocks (row by
-/// column); what is symmetric is kept once.
+/// Derivatives of one edge's bending and twist springs by what they see, as lanes::Springs (springs.h) has
+/// them.
 struct SpringStiffness {
   // Slopes: by e, by t of either node, and by theta of the first.
   Vec3 g_e = Vec3::Zero();
@@ -23,11 +22,9 @@ struct SpringStiffness {
   double theta0_theta1 = 0.0;
 };
 
-/// Second derivatives of the energy of edge i; needs its kinematics.
-/// \param grad     says what hubs give way
-/// \param viscous  each slope is that of strain + beta strain', as the forces are, which needs the rates
-SpringStiffness spring_stiffness(const Model& model, std::size_t i, const State& reference,
-                                 const Kinematics& kin, const Gradient& grad, bool viscous);
+/// Second derivatives of the energy of edge i: lanes::springs_of.
+SpringStiffness spring_stiffness(const Model& model, std::size_t i, const Kinematics& kin,
+                                 const Gradient& grad, bool viscous);
 
 /// sum k grad q grad q^T over the two deviations at either end and the twist of edge i.
 SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinematics& kin);
@@ -38,8 +35,5 @@ SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinem
 void by_parent_frame(const Vec3& t, const Vec3& t0, SpringStiffness& s);
 
 Mat3 cross_matrix(const Vec3& v);
-
-/// Second derivative of g.n by d, n = d / |d|.
-Mat3 curvature_of_unit(const Vec3& n, double inverse_length, const Vec3& g);
 
 }  // namespace tendril

@@ -9,6 +9,21 @@ namespace {
 struct Triplets {
   explicit Triplets(const Model& m) : model(m) { entries.reserve(196 * m.nodes); }
 
+  template <int B, class Place>
+  void blocks(std::size_t count, const Block<B>* from, const Place& place) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const BlockPlace at = place(k);
+      if (!at.counts) continue;
+      const auto& numbers = from[k].column;
+      for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) add(position(at.row) + r, position(at.column) + c, numbers[c][r]);
+        if (at.row_angle) add(angle(at.row), position(at.column) + c, numbers[c][3]);
+      }
+      if (!at.column_angle) continue;
+      for (std::size_t r = 0; r < 3; ++r) add(position(at.row) + r, angle(at.column), numbers[B - 1][r]);
+      if (at.row_angle) add(angle(at.row), angle(at.column), numbers[B - 1][3]);
+    }
+  }
   void block(std::size_t row, std::size_t column, const Mat3& k) {
     for (Eigen::Index r = 0; r < 3; ++r)
       for (Eigen::Index c = 0; c < 3; ++c)
@@ -28,6 +43,7 @@ struct Triplets {
   std::vector<Eigen::Triplet<double>> entries;
 
  private:
+  void add(Eigen::Index row, Eigen::Index column, double k) { entries.emplace_back(row, column, k); }
   static Eigen::Index position(std::size_t node) { return 3 * static_cast<Eigen::Index>(node); }
   Eigen::Index angle(std::size_t node) const { return model.v_begin() + model.twist_index[node]; }
 };

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "edge_pack.h"
 #include "edge_stiffness.h"
 
 namespace tendril {
@@ -116,22 +118,53 @@ void visit_hubs(const Model& model, const State& reference, const Kinematics& ki
   }
 }
 
+/// Goes over the edges of a rod with twist: calls one(i) for one that begins a child rod, and for those of a
+/// rod that has less than a pack; pack(i, k) for the pack that begins with i, of which the first k have been.
+template <class One, class InPack>
+void for_packs(const Model& model, const NodeRange& rod, const One& one, const InPack& pack) {
+  std::size_t i = rod.first;
+  const std::size_t end = rod.first + rod.count - 1;
+  if (i < end && model.carrier[i] != i) one(i++);
+  if (end < i + EdgePack::kEdges)
+    for (; i < end; ++i) one(i);
+  for (; i < end; i += EdgePack::kEdges) {
+    const std::size_t first = std::min(i, end - EdgePack::kEdges);
+    pack(first, i - first);
+  }
+}
+
+/// Hands a pack but for its first `skip` edges to a sink.
+template <class Sink>
+void visit(const Model& model, const EdgePack& pack, std::size_t i, std::size_t skip, Sink& sink) {
+  constexpr std::size_t kBlocks = EdgePack::kBlocks;
+  sink.blocks(kBlocks * (EdgePack::kEdges - skip), &pack.block[kBlocks * skip],
+              [&](std::size_t k) { return place_in_pack(model, i + skip + k / kBlocks, k % kBlocks); });
+}
+
 /// Hands the exact stiffness of the whole scene, times `scale`, to a sink.
 template <class Sink>
 void visit_stiffness(const Model& model, const State& reference, const Kinematics& kin, const Gradient& grad,
                      bool viscous, double scale, Sink& sink) {
   assert(kin.has_frames() && grad.made.fits(kin));
   EdgeStiffness edge;
-  for (const NodeRange& rod : model.rods)
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      if (model.has_twist(i)) {
-        edge_stiffness(model, rod, i, reference, kin, grad, viscous, edge);
+  EdgePack pack;
+  for (const NodeRange& rod : model.rods) {
+    if (model.has_twist(rod.first)) {
+      const auto one = [&](std::size_t i) {
+        edge_stiffness(model, rod, i, kin, grad, viscous, edge);
         visit(edge, scale, sink);
-        continue;
-      }
+      };
+      for_packs(model, rod, one, [&](std::size_t i, std::size_t skip) {
+        edge_stiffness(model, i, kin, grad, viscous, scale, pack);
+        visit(model, pack, i, skip, sink);
+      });
+      continue;
+    }
+    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
       visit_edge(i, stretch_stiffness(model, i, kin), scale, sink);
       if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, kin), scale, sink);
     }
+  }
   visit_hubs(model, reference, kin, scale, sink);
   for (const std::size_t node : model.bending.held_hinges) {
     if (model.has_before(node))
@@ -144,12 +177,19 @@ void visit_stiffness(const Model& model, const State& reference, const Kinematic
 template <class Sink>
 void visit_resistance(const Model& model, const Kinematics& kin, Sink& sink) {
   EdgeStiffness edge;
-  for (const NodeRange& rod : model.rods)
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      if (!(model.viscosity[i] > 0.0)) continue;
+  EdgePack pack;
+  for (const NodeRange& rod : model.rods) {
+    const double scale = -model.viscosity[rod.first];
+    if (scale == 0.0 || !model.has_twist(rod.first)) continue;
+    const auto one = [&](std::size_t i) {
       edge_resistance(model, rod, i, kin, edge);
-      visit(edge, -model.viscosity[i], sink);
-    }
+      visit(edge, scale, sink);
+    };
+    for_packs(model, rod, one, [&](std::size_t i, std::size_t skip) {
+      edge_resistance(model, i, kin, scale, pack);
+      visit(model, pack, i, skip, sink);
+    });
+  }
 }
 
 }  // namespace tendril

@@ -24,12 +24,13 @@ TENDRIL_INLINE double nearest_whole(double x) {
 }
 
 /// c0 + c1 z + c2 z^2 + ..., from the last on.
-TENDRIL_INLINE double horner(double, double last) {
-  return last;
+template <class T>
+TENDRIL_INLINE T horner(const T& z, double first, double last) {
+  return z * last + first;
 }
-template <class... Rest>
-TENDRIL_INLINE double horner(double z, double first, Rest... rest) {
-  return horner(z, rest...) * z + first;
+template <class T, class... Rest>
+TENDRIL_INLINE T horner(const T& z, double first, double second, Rest... rest) {
+  return horner(z, second, rest...) * z + first;
 }
 
 /// (atan(t) - t) / t for z = t^2 up to (sqrt 2 - 1)^2: Chebyshev fit, error 8e-18.
@@ -70,7 +71,8 @@ TENDRIL_INLINE double angle(double y, double x) {
 constexpr double kNearSquare = 0.03125;
 
 /// (asin(s) / s - 1) / w for w = s^2 up to kNearSquare: Chebyshev fit, error of the ratio 2e-18.
-TENDRIL_INLINE double asin_series(double w) {
+template <class T>
+TENDRIL_INLINE T asin_series(const T& w) {
   return horner(w, 1.66666666666666713e-01, 7.49999999998587352e-02, 4.46428572150876571e-02,
                 3.03819306143614416e-02, 2.23734174402499056e-02, 1.72942214348841203e-02,
                 1.53025466205305438e-02);
@@ -91,7 +93,8 @@ TENDRIL_INLINE double wide_asin_ratio(double w) {
 }
 
 /// (1 / sqrt(1 - w) - 1) / w for w up to kNearSquare: Chebyshev fit, error of the inverse cosine 3e-17.
-TENDRIL_INLINE double inverse_cosine_series(double w) {
+template <class T>
+TENDRIL_INLINE T inverse_cosine_series(const T& w) {
   return horner(w, 5.00000000000000777e-01, 3.74999999997571776e-01, 3.12500001241328595e-01,
                 2.73437262397397518e-01, 2.46115356384987716e-01, 2.24581757055933529e-01,
                 2.32368976156264700e-01);
@@ -100,12 +103,15 @@ TENDRIL_INLINE double inverse_cosine_series(double w) {
 /// What a direction at the angle phi from an axis, with components x, y across it, needs for the turn vector
 /// (x, y) phi / sin(phi): the ratio r = phi / s of angle and sine, and how it rises, dr = rise (x dx + y dy)
 /// with rise = (1 / cos(phi) - r) / s^2.
-struct Arc {
-  double ratio, rise;
+template <class T>
+struct ArcOf {
+  T ratio, rise;
 };
+using Arc = ArcOf<double>;
 /// \param w  s^2 up to kNearSquare
-TENDRIL_INLINE Arc near_arc(double w) {
-  const double p = asin_series(w);
+template <class T>
+TENDRIL_INLINE ArcOf<T> near_arc(const T& w) {
+  const T p = asin_series(w);
   return {1.0 + p * w, inverse_cosine_series(w) - p};
 }
 /// Up to a quarter turn, where the ratio rises without bound: a cosine of 0 is taken for 1.
