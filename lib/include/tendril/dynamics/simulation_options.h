@@ -14,7 +14,9 @@ namespace tendril {
 /// and speed / l. The speed of a mass lighter than half the mean of its rod counts by the square root of the
 /// ratio, for so much less energy it carries, but at least by a hundredth. Of bodies: the longest rod (where
 /// there is none, the largest body's radius of gyration), the same speed, 1 rad, and the speed over the
-/// body's own radius of gyration.
+/// body's own radius of gyration. Of rods that nothing holds, how fast they turn counts by where that takes
+/// them before the run ends, and before an anchor lets go all speeds do; a run that is asked for piece by
+/// piece (Simulation::run) looks ahead no farther than each piece.
 struct SimulationOptions {
   /// How steps are taken. The automatic choice stays with Cash-Karp where implicit steps would be refused, as
   /// forces couple too much for their equations.

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/scene/model.h"
 
 namespace tendril {
 namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// How many steps' errors may add up before a flight, and the root of how many in it, over the tolerance.
+constexpr double kBeforeFlight = 40.0, kInFlight = 3.0;
+// What moves in itself less than this, of the common speed and of a length in a flight, does so by rounding.
+constexpr double kStill = 1e-6;
 
 double length_of(const Rod& rod) {
   double length = 0.0;
@@ -53,9 +60,66 @@ ErrorScale::ErrorScale(const System& system) : system_(system), trees_(trees_of(
     for (const std::size_t i : tree.nodes) tree_mass_.back() += mass_[i];
   }
   speeds_.resize(trees_.size() + 1);
+  flights_.resize(trees_.size(), {kNever, 0.0});
   for (const Body& body : system_.scene().bodies)
     body_size_.push_back(std::sqrt(body.inertia.trace() / 3.0 / body.mass));
   if (rod_length_.empty()) longest_ = *std::max_element(body_size_.begin(), body_size_.end());
+}
+
+/// Of several anchors the last to let go counts.
+void ErrorScale::look_ahead(double now, double until) {
+  const Model& model = model_of(system_);
+  const std::vector<std::size_t> rod_of = model.rods_of_nodes();
+  std::vector<double> held_until(model.nodes, now);
+  for (const Anchor& anchor : model.anchors) {
+    double& last = held_until[model.rods[anchor.rod].first + anchor.node];
+    last = std::max(last, anchor.until);
+  }
+  flights_.assign(trees_.size(), {kNever, 0.0});
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    double length = 0.0, begin = now;
+    for (const std::size_t i : trees_[b].nodes) {
+      length = std::max(length, rod_length_[rod_of[i]]);
+      begin = std::max(begin, held_until[i]);
+    }
+    if (begin < until) flights_[b] = {length / (until - begin), (trees_[b].free ? until : begin) - now};
+  }
+}
+
+double ErrorScale::own_speed(std::size_t tree) const {
+  return std::max(least_speed(), speeds_[tree].own);
+}
+
+/// That errors of what goes on in a flight count by. Up to its beginning those of all steps add up; in the
+/// flight, where they are seen beside what keeps the energy, some go one way and some the other.
+double ErrorScale::flying_speed(std::size_t tree, double h) const {
+  const Flight& flight = flights_[tree];
+  if (flight.speed == kNever || speeds_[tree].own < kStill * std::max(flight.speed, speeds_[tree].common))
+    return own_speed(tree);
+  const double part = h / flight.over;
+  const double share = trees_[tree].free ? kInFlight * std::sqrt(part) : kBeforeFlight * part;
+  return std::min(own_speed(tree), flight.speed * std::min(1.0, share));
+}
+
+double ErrorScale::share_of_flight() const {
+  double least = 1.0;
+  for (std::size_t b = 0; b < trees_.size(); ++b)
+    if (!trees_[b].free) least = std::min(least, flights_[b].speed / own_speed(b));
+  return least;
+}
+
+/// How fast an error of the velocities turns a free tree about its centre: the speed at a radius of gyration.
+double ErrorScale::turn_of(std::size_t tree, const Eigen::VectorXd& error, const Eigen::VectorXd& y) const {
+  const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
+  const Vec3 centre = mean(trees_[tree], mass_, y, 0);
+  Vec3 momentum = Vec3::Zero();
+  double inertia = 0.0;
+  for (const std::size_t i : trees_[tree].nodes) {
+    const Vec3 arm = of_node(y, 0, i) - centre;
+    momentum += mass_[i] * arm.cross(Vec3(of_node(error, v, i)));
+    inertia += mass_[i] * arm.squaredNorm();
+  }
+  return inertia > 0.0 ? momentum.norm() / std::sqrt(inertia * tree_mass_[tree]) : 0.0;
 }
 
 /// The speed of a body's surface where it spins: that of its matter at a radius of gyration.
@@ -187,20 +251,20 @@ double ErrorScale::turning_norm(std::size_t tree, double speed, const Eigen::Vec
   return largest;
 }
 
-double ErrorScale::norm(const Eigen::VectorXd& error) const {
+double ErrorScale::norm(const Eigen::VectorXd& error, const Eigen::VectorXd& y, double h) const {
   double largest = 0.0;
   for (std::size_t r = 0; r < rod_length_.size(); ++r) {
     const auto first = 3 * static_cast<Eigen::Index>(system_.rods()[r].first);
     const auto count = 3 * static_cast<Eigen::Index>(system_.rods()[r].count);
     largest = std::max(largest, error.segment(first, count).cwiseAbs().maxCoeff() / rod_length_[r]);
   }
-  const double least = least_speed();
   for (std::size_t b = 0; b < trees_.size(); ++b) {
-    const double speed = std::max(least, speeds_[b].own);
+    const double speed = trees_[b].free ? own_speed(b) : flying_speed(b, h);
     largest = std::max(largest, velocity_norm(b, speed, error));
+    if (trees_[b].free) largest = std::max(largest, turn_of(b, error, y) / flying_speed(b, h));
     if (system_.twist_count() > 0) largest = std::max(largest, turning_norm(b, speed, error));
   }
-  return std::max(largest, norm_of_bodies(error, std::max(least, fastest())));
+  return std::max(largest, norm_of_bodies(error, std::max(least_speed(), fastest())));
 }
 
 }  // namespace tendril

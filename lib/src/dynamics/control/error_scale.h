@@ -31,9 +31,16 @@ class ErrorScale {
   void see(const std::vector<Speed>& speeds);
   /// No speed scale is below a thousandth of a length in this time.
   void begin(double duration) { slowest_ = duration > 0.0 ? kLeast * longest_ / duration : 0.0; }
+  /// Looks ahead to the end of a run. A tree that nothing holds goes on with the turn that it has, and one
+  /// that is let go before the end with all its velocity: over the flight their errors become errors of
+  /// place. They count by what the flight makes of them, if that is more.
+  void look_ahead(double now, double until);
 
-  /// Largest component of an error laid out like y, relative to its scale.
-  double norm(const Eigen::VectorXd& error) const;
+  /// Largest component of an error laid out like y, made in a step h to y, relative to its scale.
+  double norm(const Eigen::VectorXd& error, const Eigen::VectorXd& y, double h) const;
+
+  /// Of the speed that steps' errors are measured on, that which a flight to come allows instead; at most 1.
+  double share_of_flight() const;
 
   const std::vector<Speed>& speeds() const { return speeds_; }  ///< per tree, then that of the rigid bodies
   double energy() const;                                        ///< kinetic, at the trees' own speeds
@@ -50,6 +57,9 @@ class ErrorScale {
   double least_speed() const;
   double see_bodies(const State& state) const;
   double norm_of_bodies(const Eigen::VectorXd& error, double speed) const;
+  double own_speed(std::size_t tree) const;
+  double flying_speed(std::size_t tree, double h) const;
+  double turn_of(std::size_t tree, const Eigen::VectorXd& error, const Eigen::VectorXd& y) const;
   double velocity_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const;
   double turning_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const;
 
@@ -60,6 +70,11 @@ class ErrorScale {
   std::vector<double> mass_;         ///< per node
   std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
   std::vector<double> body_size_;    ///< radius of gyration
+  struct Flight {
+    double speed;  ///< that goes the tree's longest rod's length in it; infinite where there is none
+    double over;   ///< the time over which errors add up
+  };
+  std::vector<Flight> flights_;  ///< per tree
   std::vector<Speed> speeds_;
   double longest_ = 0.0, slowest_ = 0.0;
   double most_kinetic_ = 0.0, most_own_kinetic_ = 0.0;

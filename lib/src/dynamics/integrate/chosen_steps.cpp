@@ -147,7 +147,7 @@ bool ChosenSteps::step_towards(double target) {
     const double h = at.seen(state_.time);
     if (!(state_.time + h > state_.time)) return jump(at, last);
     last = stepper_->step(state_, h, y_, error_);
-    own_error_ = last.ok() ? scale_.norm(error_) / options_.tolerance : kNone;
+    own_error_ = last.ok() ? scale_.norm(error_, y_, h) / options_.tolerance : kNone;
     double error = last.ok() ? own_error_ : 0.0;
     if (last.ok() && error <= 1.0) error = error_with_energy(at, error);
     if (last.ok() && error <= 1.0 && renew(at, state_.time + h, last)) {
@@ -176,7 +176,8 @@ double ChosenSteps::energy_allowance(double h) const {
   const double run = until_ - start_;
   const double speed = std::max(drift_.fastest(), kSlowest * scale_.rate());
   const double may_lose = 4.0 * kDriftAim * options_.tolerance / std::max(1.0, speed * run) *
-                          std::max(energy_.own_scale(), kSlowest * kSlowest * scale_.energy());
+                          std::max(energy_.own_scale(), kSlowest * kSlowest * scale_.energy()) *
+                          scale_.share_of_flight();
   const double lost = std::abs(energy_.off(state_, energy_.last()));
   const double left = std::max(may_lose - lost, kBurst * may_lose);
   return left * std::max(2.0 * h / (until_ - state_.time), kBurst);
@@ -196,7 +197,9 @@ double ChosenSteps::error_with_energy(const Aim& aim, double error) {
   if (!stepper_->stiff() || touches()) return error;
   ++other_evaluations_;
   next_energies_ = system_.energies(next_, workspace());
-  if (unwatched_ > 0 || (steps_ > kLongRun && drift_.widest() < kStill * options_.tolerance)) return error;
+  const bool flies = scale_.share_of_flight() < 1.0;
+  if (unwatched_ > 0 || (steps_ > kLongRun && drift_.widest() < kStill * options_.tolerance && !flies))
+    return error;
   return std::max(error, energy_error(aim, error));
 }
 

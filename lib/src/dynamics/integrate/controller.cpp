@@ -75,6 +75,7 @@ void Controller::take_over(const Past& past) {
 void Controller::begin(double until) {
   until_ = until;
   scale_.begin(until_ - start_);
+  scale_.look_ahead(state_.time, until_);
   ended_ = false;
   report_.stop = Stop::finished;
   report_.reason.clear();
