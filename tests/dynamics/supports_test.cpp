@@ -88,6 +88,15 @@ TEST(Supports, OfABeamClampedAtBothEndsCarryWLSquaredOver12AtOrderTwo) {
   EXPECT_NEAR(test::order(error[0], error[1]), 2.0, 0.1);
 }
 
+/// An uneven rod that begins at a point.
+Rod branch(Random& random, const Vec3& from) {
+  Rod rod = test::uneven_rod(random, 5);
+  for (std::vector<Vec3>* points : {&rod.p, &rod.q})
+    for (Vec3& p : *points) p = rotate_about(Vec3::UnitZ(), 1.0, p) + from;
+  rod.q[0] = rod.p[0] + Vec3(0.1, 0.2, 1);
+  return rod;
+}
+
 /// The two ways to ask agree where nothing moves.
 TEST(Supports, AtRestAreThoseOfStatics) {
   Random random(5);
@@ -97,10 +106,19 @@ TEST(Supports, AtRestAreThoseOfStatics) {
        {std::tuple{0u, true, true}, std::tuple{3u, false, true}, std::tuple{6u, true, false}})
     scene.anchors.push_back({.rod = 0, .node = node, .holds_position = position, .holds_frame = frame});
   scene.forces.push_back(std::make_shared<Gravity>(Vec3(0.1, 0.2, -0.4)));
-  scene.forces.push_back(test::point_load(Kind::torque, 3, Vec3(0.2, 0.5, -0.1)));
+  scene.rods.push_back(branch(random, scene.rods[0].p[4]));
+  scene.joints.push_back({.parent = 0, .node = 4, .child = 1});
+  for (const std::size_t node : {3, 6})
+    scene.forces.push_back(test::point_load(Kind::torque, static_cast<int>(node), Vec3(0.2, 0.5, -0.1)));
+  // Across the tangent beside the joint: it pushes the parent's node.
+  scene.forces.push_back(
+      std::make_shared<PointLoad>(Kind::torque, 1, 1, Vec3(0.1, -0.2, 0.3), Signal::constant(1)));
   scene.forces.push_back(test::point_load(Kind::force, 6, Vec3(0.2, 0.5, -0.1)));
   const System system(scene);
   const Equilibrium found = balanced(system);
+  Eigen::VectorXd rate;
+  ASSERT_TRUE(system.derivative(found.state, 0, found.state.y, rate, *system.make_workspace()).ok());
+  EXPECT_LT(rate.cwiseAbs().maxCoeff(), 1e-6);
   const std::vector<Support> supports = supports_of(system, found.state);
   ASSERT_EQ(supports.size(), 3u);
   for (std::size_t a = 0; a < 3; ++a) {
@@ -158,14 +176,14 @@ TEST(Supports, BalanceBothMomentaOfAWholeMovingScene) {
   Scene scene;
   scene.twist = Scene::Twist::everywhere;
   scene.rods.push_back(test::uneven_rod(random, 8));
-  scene.rods.push_back(test::uneven_rod(random, 5));
-  for (std::vector<Vec3>* points : {&scene.rods[1].p, &scene.rods[1].q})
-    for (Vec3& p : *points) p = rotate_about(Vec3::UnitZ(), 1.0, p) + scene.rods[0].p[3];
-  scene.rods[1].q[0] = scene.rods[1].p[0] + Vec3(0.1, 0.2, 1);
+  scene.rods.push_back(branch(random, scene.rods[0].p[3]));
   scene.rods[0].viscosity = 0.02;
   scene.joints.push_back({.parent = 0, .node = 3, .child = 1});
   for (const std::size_t node : {0, 3, 7}) scene.anchors.push_back(swinging(0, node, scene.rods[0]));
   scene.anchors[2].holds_frame = false;
+  scene.anchors[2].slide = Anchor::Slide::line;
+  scene.anchors[2].slide_axis = Vec3(1, -2, 1);
+  scene.anchors[1].slide = Anchor::Slide::plane;
   scene.anchors.push_back(swinging(1, 2, scene.rods[1]));
   scene.anchors[3].holds_position = false;
   const Vec3 g(0.3, -0.2, -1.1), push(0.5, 0.2, -0.7), turn(0.4, -0.6, 0.9);

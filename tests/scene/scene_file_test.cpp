@@ -106,6 +106,19 @@ TEST(SceneReader, AnchorsMoveWithTheVelocityTheySay) {
   EXPECT_EQ(moving, 2);
 }
 
+TEST(SceneReader, AnchorsSlideAlongALineOrAcrossADirection) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["anchors"][0]["slide"] = {{"along", {0, 3, 0}}};
+  const Anchor line = read(scene).scene.anchors.front();
+  EXPECT_EQ(line.slide, Anchor::Slide::line);
+  EXPECT_EQ(line.slide_axis, Vec3(0, 3, 0));
+  scene["curve_pairs"][0]["anchors"][0]["slide"] = {{"across", {1, 0, 2}}};
+  const scene::SceneFile file = read(scene);
+  EXPECT_EQ(file.scene.anchors.front().slide, Anchor::Slide::plane);
+  EXPECT_EQ(file.scene.anchors.front().slide_axis, Vec3(1, 0, 2));
+  EXPECT_EQ(file.scene.anchors.back().slide, Anchor::Slide::none);
+}
+
 TEST(SceneReader, AnchorsLetGoAtTheTimeTheySay) {
   Json scene = Json::parse(full_scene());
   scene["curve_pairs"][0]["anchors"][0]["until"] = 0.3;

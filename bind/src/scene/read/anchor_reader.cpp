@@ -130,6 +130,16 @@ Range read_range(const JsonNode& anchor, const Rod& rod) {
   return range;
 }
 
+/// Along a line, or in the plane across a direction.
+void read_slide(const JsonNode& slide, const std::string& hold, Anchor& out) {
+  if (slide.has("along") == slide.has("across")) slide.refuse("along and across", "one of them, not both");
+  if (hold == "frame") slide.refuse("beside a hold of the frame alone", "a hold of \"position\" or \"both\"");
+  const JsonNode axis = slide.at(slide.has("along") ? "along" : "across");
+  out.slide = slide.has("along") ? Anchor::Slide::line : Anchor::Slide::plane;
+  out.slide_axis = axis.vec3();
+  if (!(out.slide_axis.stableNorm() > 0.0)) axis.refuse("no direction", "a vector that is not zero");
+}
+
 }  // namespace
 
 ReadMotion read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame) {
@@ -163,6 +173,7 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
   for (std::size_t i = range.first; i <= range.last; ++i) {
     Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
     if (anchor.has("until")) one.until = anchor.at("until").number();
+    if (anchor.has("slide")) read_slide(anchor.at("slide"), hold, one);
     const ReadMotion motion = read_motion(anchor, rod.p[i], frames.frame[i]);
     one.motion = motion.pose;
     one.period = motion.period;

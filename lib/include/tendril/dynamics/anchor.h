@@ -34,6 +34,16 @@ struct Anchor {
   /// The shortest period of the motion, as Force::period(); infinite where it has none.
   double period = std::numeric_limits<double>::infinity();
   std::vector<double> breaks = {};  ///< times at which the motion's velocity jumps: steps end there
+  /// What a held position may do: nothing, or slide without friction along a line through the pose's place,
+  /// or in a plane through it. Both keep their direction in the world however the pose turns; along what is
+  /// free the pose's place and velocity count for nothing.
+  enum class Slide {
+    none,  ///< held whole
+    line,  ///< slides along slide_axis
+    plane  ///< slides across it
+  };
+  Slide slide = Slide::none;        ///< of a held position alone, else InvalidInput
+  Vec3 slide_axis = Vec3::UnitZ();  ///< direction of the line, normal of the plane: finite, not 0
 };
 
 }  // namespace tendril

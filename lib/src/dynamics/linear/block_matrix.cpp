@@ -281,6 +281,36 @@ void BlockMatrix<B>::release(std::size_t node, std::size_t coordinate) {
 }
 
 template <int B>
+void BlockMatrix<B>::project(std::size_t node, const Mat3& by) {
+  const std::size_t own = pattern_->pivot(node);
+  const auto rows = [&](Block& b) {
+    for (auto& column : b.column) {
+      const Vec3 put = by * Vec3(column[0], column[1], column[2]);
+      std::copy(put.begin(), put.end(), column.begin());
+    }
+  };
+  const auto columns = [&](Block& b) {
+    const auto old = b.column;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t r = 0; r < B; ++r) {
+        b.column[c][r] = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+          b.column[c][r] += old[k][r] * by(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
+      }
+  };
+  rows(diagonal_[own]);
+  columns(diagonal_[own]);
+  for (std::size_t e = pattern_->begin(own); e < pattern_->begin(own + 1); ++e) {
+    rows(upper_[e]);
+    if (!symmetric_) columns(lower_[e]);
+  }
+  for (const std::size_t e : pattern_->earlier(own)) {
+    columns(upper_[e]);
+    if (!symmetric_) rows(lower_[e]);
+  }
+}
+
+template <int B>
 bool BlockMatrix<B>::factor() {
   const Parts<B> parts{diagonal_.data(), upper_.data(), lower_.data()};
   if constexpr (B == 4) return factor_four(*pattern_, parts);

@@ -40,6 +40,8 @@ class BlockMatrix {
 
   /// Zeroes a coordinate's row and column.
   void release(std::size_t node, std::size_t coordinate);
+  /// Puts a symmetric matrix before a node's rows of positions and after its columns.
+  void project(std::size_t node, const Mat3& by);
 
   /// L U in place. False when a pivot is not finite, or smaller than 1e-12 of its row within the block.
   bool factor();

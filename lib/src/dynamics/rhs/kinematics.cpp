@@ -151,9 +151,14 @@ void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Kinematic
     kin.pose[a] = anchor.motion
                       ? anchor.motion(t)
                       : AnchorPose{model.rest_p[i], model.rest_frame[i], Vec3::Zero(), Vec3::Zero()};
-    if (!anchor.holds_position) continue;
+    if (!model.holds_position(i)) continue;
     kin.p.set(i, kin.pose[a].position);
     kin.v.set(i, kin.pose[a].velocity);
+  }
+  for (const Model::Slider& slider : model.sliders) {
+    const AnchorPose& pose = kin.pose[slider.anchor];
+    kin.p.set(slider.node, pose.position + slider.free * (Vec3(kin.p[slider.node]) - pose.position));
+    kin.v.set(slider.node, slider.free * Vec3(kin.v[slider.node]) + slider.carried(pose));
   }
   for (const Model::Attachment& attached : model.attachments) {
     kin.p.set(attached.root, kin.p[attached.parent]);

@@ -79,8 +79,11 @@ void add_torques(const Model& model, const LoadColumns& loads, Gradient& grad) {
 void pull_on_held_nodes(const Model& model, const Kinematics& kin, Gradient& grad, LoadColumns& loads,
                         Pull& pull) {
   pull_on_edges(model, kin, grad, loads, pull);
-  for (const std::size_t i : model.driven_positions)
+  const auto put = [&](std::size_t i) {
     pull.force.set(i, Vec3(pull.edge_force[i]) - Vec3(pull.edge_force[i - 1]));
+  };
+  for (const std::size_t i : model.driven_positions) put(i);
+  for (const Model::Slider& slider : model.sliders) put(slider.node);
 }
 
 /// Power that anchors put in: against the whole force on a held position and the whole torque on a held
@@ -94,6 +97,9 @@ double anchor_power(const Model& model, const Kinematics& kin, const Gradient& g
              (grad.spin[i] - (model.loaded ? loads.torque[i].dot(kin.frame.z[i]) : 0.0)) * kin.spin[i];
   for (const std::size_t i : model.driven_positions)
     power -= (pull.force[i] + model.moved_mass[i] * model.gravity).dot(kin.v[i]);
+  for (const Model::Slider& slider : model.sliders)
+    power -= (pull.force[slider.node] + model.moved_mass[slider.node] * model.gravity)
+                 .dot(slider.carried(kin.pose[slider.anchor]));
   return power;
 }
 
@@ -114,6 +120,9 @@ TENDRIL_LANES double damping_power(const Model& model, const Kinematics& kin) {
   double power = 0.0;
   for (; i < model.nodes; ++i) power += mass[i] * kin.v[i].squaredNorm() + inertia[i] * (spin[i] * spin[i]);
   for (const double sum : sums) power += sum;
+  for (const Model::Slider& slider : model.sliders)
+    power += model.damping[slider.node] * model.moved_mass[slider.node] *
+             (slider.free * Vec3(kin.v[slider.node])).squaredNorm();
   return -power;
 }
 
@@ -159,6 +168,15 @@ TENDRIL_LANES bool accelerate_by_masses(const Model& model, const Kinematics& ki
 void move(const Model& model, const Eigen::VectorXd& y, Eigen::VectorXd& dy) {
   std::copy_n(y.data() + model.v_begin(), model.v_begin(), dy.data());
   for (const std::size_t i : model.held_positions) dy.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
+}
+
+/// Nothing pushes a sliding node off its line or plane.
+void slide(const Model& model, Eigen::VectorXd& dy) {
+  for (const Model::Slider& slider : model.sliders)
+    for (const Eigen::Index begin : {Eigen::Index{0}, model.v_begin()}) {
+      auto rate = dy.segment<3>(begin + 3 * static_cast<Eigen::Index>(slider.node));
+      rate = (slider.free * rate).eval();
+    }
 }
 
 /// theta' and w' of the nodes of a segment; 0 where the frame is held. False where one is not finite.
@@ -221,6 +239,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
   bool finite = std::isfinite(power);
   const auto accelerate_all = by_edges ? accelerate_by_edges : accelerate_by_masses;
   finite &= accelerate_all(model, kin, pull, dy.data() + model.v_begin());
+  slide(model, dy);
   for (const Model::Segment& s : model.segments) {
     if (!s.twist) continue;
     const Eigen::Index k = model.twist_index[s.first];

@@ -20,6 +20,7 @@ struct Grouping {
           held[r] = 1;
       }
     for (const std::size_t i : model.driven_positions) held[body[rod[i]]] = 1;
+    for (const Model::Slider& slider : model.sliders) held[body[rod[slider.node]]] = 1;
   }
   std::vector<std::size_t> body;
   std::vector<char> held;

@@ -54,6 +54,18 @@ void check_rod(const Rod& rod, std::size_t index) {
                          "a rest shape with a frame at every node");
 }
 
+/// Projects on what a slide leaves free.
+Mat3 free_of(const Anchor& anchor, const std::string& place) {
+  if (!anchor.holds_position)
+    throw InvalidInput(place, "of a position that is not held", "holds_position, or no slide");
+  const double length = anchor.slide_axis.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw InvalidInput(place, "no direction", "a slide_axis that is finite and not zero");
+  const Vec3 axis = anchor.slide_axis / length;
+  const Mat3 along = axis * axis.transpose();
+  return anchor.slide == Anchor::Slide::line ? along : Mat3(Mat3::Identity() - along);
+}
+
 constexpr std::size_t kModelRank = 60;  // of the first column, behind those of a workspace
 
 }  // namespace
@@ -136,9 +148,11 @@ void Model::add_anchors() {
     anchored[node] = 1;
     if (std::isnan(anchor.until)) throw InvalidInput(member("anchors", a, "until"), "not a number", "a time");
     if (anchor.until <= from) continue;
-    anchors.push_back(anchor);
-    held_position[node] = anchor.holds_position;
+    held_position[node] = anchor.holds_position && anchor.slide == Anchor::Slide::none;
     held_frame[node] = anchor.holds_frame;
+    if (anchor.slide != Anchor::Slide::none)
+      sliders.push_back({node, anchors.size(), free_of(anchor, member("anchors", a, "slide"))});
+    anchors.push_back(anchor);
   }
 }
 
@@ -275,6 +289,7 @@ void Model::choose_forces() {
     if (inverse_inertia[i] > 0.0) damped_inertia[i] = damping[i] * inertia[i];
     damped = damped || damping[i] > 0.0;
   }
+  for (const Slider& slider : sliders) damped_mass[slider.node] = 0.0;  // by what they may do alone
   for (std::size_t f = 0; f < scene.forces.size(); ++f) {
     const auto& force = scene.forces[f];
     // What accelerates every free node alike does so whatever merged with it: no loads need to be summed.

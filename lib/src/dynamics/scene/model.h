@@ -2,6 +2,7 @@
 
 #include <tendril/dynamics/couplings.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "access.h"
@@ -42,6 +43,19 @@ struct System::Model {
   Column free_inertia;                          ///< likewise
   Column damped_mass, damped_inertia;           ///< times the damping; 0 where held
   std::vector<std::size_t> held_positions;      ///< by node
+  /// A node that an anchor holds on a line or a plane; it does not count as held.
+  struct Slider {
+    std::size_t node, anchor;
+    Mat3 free;  ///< projects on what it may do
+    /// The part of the pose's velocity that it has to follow.
+    Vec3 carried(const AnchorPose& pose) const { return pose.velocity - free * pose.velocity; }
+  };
+  std::vector<Slider> sliders;
+  const Slider* slider_of(std::size_t node) const {
+    const auto at =
+        std::find_if(sliders.begin(), sliders.end(), [&](const Slider& s) { return s.node == node; });
+    return at == sliders.end() ? nullptr : &*at;
+  }
   /// Held nodes, but for those that pass what they feel to the node they are attached to.
   std::vector<std::size_t> driven_positions, driven_frames;
 

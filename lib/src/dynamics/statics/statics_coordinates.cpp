@@ -1,5 +1,7 @@
 #include "statics_coordinates.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -47,6 +49,14 @@ void StaticCoordinates::hold() {
     held_frame_[node] = anchor.holds_frame;
     if (anchor.motion && anchor.holds_position) anchor_[node] = &anchor;
   }
+  slide_.assign(n, -1);
+  for (const Model::Slider& slider : model_of(system_).sliders) {
+    held_position_[slider.node] = 0;
+    slide_[slider.node] = static_cast<int>(slides_.size());
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(slider.free);  // eigenvalues ascend: 0 is held, 1 is free
+    slides_.push_back(
+        {axes.eigenvectors().rowwise().reverse(), static_cast<int>(std::lround(slider.free.trace()))});
+  }
   parent_node_.assign(system_.rods().size(), -1);
   reacts_.assign(system_.rods().size(), 1);
   for (const Joint& joint : system_.scene().joints) {
@@ -93,7 +103,8 @@ void StaticCoordinates::number() {
   for (const std::size_t r : rods_) {
     const NodeRange& rod = system_.rods()[r];
     for (std::size_t i = rod.first + rod.count; i-- > rod.first;) {
-      for (int axis = 0; axis < 3 && !holds_position(i); ++axis)
+      const int free = slide_[i] < 0 ? 3 : slides_[static_cast<std::size_t>(slide_[i])].free;
+      for (int axis = 0; axis < free && !holds_position(i); ++axis)
         add(i, axis, 3 * static_cast<Eigen::Index>(i) + axis);
       const int twist = model_of(system_).twist_index[i];
       if (twist < 0 || holds_frame(i)) continue;
@@ -129,6 +140,31 @@ void StaticCoordinates::measure() {
     weight_[k] = share[node(k)] / length_ / (axis(k) == 3 ? 1.0 : length_ * length_);
 }
 
+Vec3 StaticCoordinates::held(std::size_t node, const Vec3& v) const {
+  if (holds_position(node)) return v;
+  if (!axes(node)) return Vec3::Zero();
+  Vec3 sum = Vec3::Zero();
+  for (int axis = slides_[static_cast<std::size_t>(slide_[node])].free; axis < 3; ++axis)
+    sum += axes(node)->col(axis).dot(v) * axes(node)->col(axis);
+  return sum;
+}
+
+void StaticCoordinates::turn_to_axes(Eigen::SparseMatrix<double>& hessian) const {
+  if (slides_.empty()) return;
+  std::vector<Eigen::Triplet<double>> turn;
+  for (Eigen::Index k = 0; k < hessian.rows(); ++k) {
+    const auto node = static_cast<std::size_t>(k / 3);
+    if (node >= slide_.size() || !axes(node))
+      turn.emplace_back(k, k, 1.0);
+    else
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        turn.emplace_back(k, k - k % 3 + axis, (*axes(node))(k % 3, axis));
+  }
+  Eigen::SparseMatrix<double> by(hessian.rows(), hessian.rows());
+  by.setFromTriplets(turn.begin(), turn.end());
+  hessian = (by.transpose() * hessian * by).pruned(0.0, 0.0);
+}
+
 double StaticCoordinates::turn_of(std::size_t i, const Eigen::VectorXd& x) const {
   const Eigen::Index k = row(i, 3);
   return k < 0 ? 0.0 : x[k];
@@ -137,10 +173,14 @@ double StaticCoordinates::turn_of(std::size_t i, const Eigen::VectorXd& x) const
 Eigen::VectorXd StaticCoordinates::moves(const State& state, const Eigen::VectorXd& x, double time) const {
   Eigen::VectorXd move = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(system_.node_count()));
   for (Eigen::Index k = 0; k < size(); ++k)
-    if (axis(k) < 3) move[in_gradient(k)] = x[k];
+    if (axis(k) < 3 && axes(node(k)))
+      move.segment<3>(3 * static_cast<Eigen::Index>(node(k))) += x[k] * axes(node(k))->col(axis(k));
+    else if (axis(k) < 3)
+      move[in_gradient(k)] = x[k];
   for (std::size_t i = 0; i < anchor_.size(); ++i)
     if (anchor_[i] != nullptr)
-      move.segment<3>(3 * static_cast<Eigen::Index>(i)) = anchor_[i]->motion(time).position - at(state.y, i);
+      move.segment<3>(3 * static_cast<Eigen::Index>(i)) +=
+          held(i, anchor_[i]->motion(time).position - at(state.y, i));
   for (auto r = rods_.rbegin(); r != rods_.rend(); ++r)
     if (parent_node_[*r] >= 0)
       move.segment<3>(3 * static_cast<Eigen::Index>(system_.rods()[*r].first)) =
@@ -207,7 +247,7 @@ void StaticCoordinates::close(State& state, std::size_t from, std::size_t to, co
 void StaticCoordinates::thread(State& state, const NodeRange& rod, const Eigen::VectorXd& move) const {
   Vec3 old = at(state.y, rod.first);
   state.y.segment<3>(3 * static_cast<Eigen::Index>(rod.first)) += at(move, rod.first);
-  std::size_t held = rod.first;
+  std::size_t held_at = rod.first;
   double turn = 0.0;
   for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
     const Vec3 next = at(state.y, i + 1);
@@ -217,9 +257,12 @@ void StaticCoordinates::thread(State& state, const NodeRange& rod, const Eigen::
     turn = std::max(turn, d.cross(m).norm() / std::max(d.squaredNorm(), 1e-300));
     state.y.segment<3>(3 * static_cast<Eigen::Index>(i + 1)) = at(state.y, i) + edge;
     old = next;
-    if (!holds_position(i + 1)) continue;
-    close(state, held, i + 1, next + at(move, i + 1), turn);
-    held = i + 1;
+    if (!holds_position(i + 1) && !axes(i + 1)) continue;
+    // A node that slides is brought to where it may be, wherever the edges have led it along that.
+    Vec3 target = next + at(move, i + 1);
+    if (axes(i + 1)) target = at(state.y, i + 1) + held(i + 1, target - at(state.y, i + 1));
+    close(state, held_at, i + 1, target, turn);
+    held_at = i + 1;
     turn = 0.0;
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+
 #include <tendril/dynamics/system.h>
 
 #include <string>
@@ -20,7 +22,7 @@ class StaticCoordinates {
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(node_.size()); }
   std::size_t node(Eigen::Index k) const { return node_[static_cast<std::size_t>(k)]; }
-  /// 0 to 2 for a position, 3 for the turn.
+  /// 0 to 2 for a position, along the node's own axes where it slides, else the world's; 3 for the turn.
   int axis(Eigen::Index k) const { return axis_[static_cast<std::size_t>(k)]; }
   /// Place in the gradient of System::elastic_gradient, and back (-1 where held).
   Eigen::Index in_gradient(Eigen::Index k) const { return in_gradient_[static_cast<std::size_t>(k)]; }
@@ -30,6 +32,27 @@ class StaticCoordinates {
   Eigen::Index row(std::size_t node, int axis) const {
     return row_[4 * node + static_cast<std::size_t>(axis)];
   }
+
+  /// The unit vectors, as columns, along which the positions of a sliding node count, the free ones first;
+  /// null for other nodes.
+  const Mat3* axes(std::size_t node) const {
+    return slide_[node] < 0 ? nullptr : &slides_[static_cast<std::size_t>(slide_[node])].axes;
+  }
+  /// A vector at a node along one of the axes of its positions.
+  double along(std::size_t node, int axis, const Vec3& v) const {
+    const Mat3* own = axes(node);
+    return own ? own->col(axis).dot(v) : v[axis];
+  }
+  /// An entry of a vector in the order of System::elastic_gradient.
+  double in(const Eigen::VectorXd& gradient, Eigen::Index k) const {
+    return axis(k) == 3 || !axes(node(k)) ? gradient[in_gradient(k)]
+                                          : along(node(k), axis(k), at(gradient, node(k)));
+  }
+  /// A Hessian in that order, the positions of sliding nodes along their own axes.
+  bool any_slides() const { return !slides_.empty(); }
+  void turn_to_axes(Eigen::SparseMatrix<double>& hessian) const;
+  /// The part of a vector at a node in which its position is held.
+  Vec3 held(std::size_t node, const Vec3& v) const;
 
   bool holds_position(std::size_t node) const { return held_position_[node] != 0; }
   bool holds_frame(std::size_t node) const { return held_frame_[node] != 0; }
@@ -79,6 +102,12 @@ class StaticCoordinates {
   std::vector<Eigen::Index> turn_in_y_;  ///< per node, or -1
   std::vector<char> held_position_, held_frame_, reacts_;
   std::vector<const Anchor*> anchor_;  ///< per node that one moves, or null
+  struct Slide {
+    Mat3 axes;
+    int free;  ///< how many of them
+  };
+  std::vector<int> slide_;  ///< per node, into the slides, or -1
+  std::vector<Slide> slides_;
   std::vector<std::size_t> rods_;
   std::vector<std::ptrdiff_t> parent_node_;
   double length_ = 0.0, energy_scale_ = 0.0;

@@ -101,22 +101,23 @@ void StaticLoads::pass_to_parents() {
   }
 }
 
-void StaticLoads::pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q) const {
-  for (Eigen::Index k = 0; k < q.size(); ++k) {
-    const std::size_t i = coordinates_.node(k);
-    const int axis = coordinates_.axis(k);
-    q[k] += axis == 3 ? torque_[i].dot(frames[i].z) : force_[i][axis];
-  }
+void StaticLoads::pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q) {
   for (const NodeRange& rod : system_.rods())
     for (std::size_t i = rod.first; i < rod.first + rod.count; ++i)
       if (!coordinates_.holds_frame(i) && !torque_[i].isZero(0.0))
-        pull_back_turn(rod, i, torque_[i].cross(frames[i].z), q);
+        pull_back_turn(rod, i, torque_[i].cross(frames[i].z));
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    const std::size_t i = coordinates_.node(k);
+    const int axis = coordinates_.axis(k);
+    q[k] = axis == 3 ? torque_[i].dot(frames[i].z) : coordinates_.along(i, axis, force_[i]);
+  }
 }
 
-/// The tangent is the unit sum of the unit edges around.
-void StaticLoads::pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent,
-                                 Eigen::VectorXd& q) const {
+/// The tangent is the unit sum of the unit edges around. What the root of a child feels, its parent's node
+/// does.
+void StaticLoads::pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent) {
   const auto edge = [&](std::size_t i) { return Vec3(p_[i + 1] - p_[i]); };
+  const Model& model = model_of(system_);
   const std::size_t from = node > rod.first ? node - 1 : node;
   const std::size_t to = node + 1 < rod.first + rod.count ? node + 1 : node;
   Vec3 sum = Vec3::Zero();
@@ -124,10 +125,8 @@ void StaticLoads::pull_back_turn(const NodeRange& rod, std::size_t node, const V
   const Vec3 by_edges = across(t_[node], by_tangent) / sum.norm();
   for (std::size_t i = from; i < to; ++i) {
     const Vec3 f = across(edge(i).normalized(), by_edges) / edge(i).norm();
-    for (int axis = 0; axis < 3; ++axis) {
-      if (const Eigen::Index k = coordinates_.row(i + 1, axis); k >= 0) q[k] += f[axis];
-      if (const Eigen::Index k = coordinates_.row(i, axis); k >= 0) q[k] -= f[axis];
-    }
+    force_[i + 1] += f;
+    if (model.feels[i]) force_[model.carrier[i]] -= f;
   }
 }
 
@@ -163,7 +162,11 @@ Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eige
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const Eigen::Index place = coordinates_.in_gradient(k);
     const auto n = static_cast<Eigen::Index>(system_.node_count());
-    there.y[coordinates_.axis(k) == 3 ? place + 3 * n : place] += x[k];
+    const std::size_t node = coordinates_.node(k);
+    if (const Mat3* axes = coordinates_.axes(node); axes && coordinates_.axis(k) < 3)
+      there.y.segment<3>(3 * static_cast<Eigen::Index>(node)) += x[k] * axes->col(coordinates_.axis(k));
+    else
+      there.y[coordinates_.axis(k) == 3 ? place + 3 * n : place] += x[k];
   }
   double unused = 0.0;
   return add(there, q, unused, work);

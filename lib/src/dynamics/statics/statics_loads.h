@@ -29,9 +29,9 @@ class StaticLoads {
 
   /// Sum of the sizes of the forces last added, of torques over the length.
   double sum() const { return sum_; }
-  /// Forces on the nodes last added.
+  /// Forces on the nodes last added, with what torques across free tangents push them by.
   const std::vector<Vec3>& force() const { return force_; }
-  /// And the torques on them.
+  /// And the torques.
   const std::vector<Vec3>& torque() const { return torque_; }
 
  private:
@@ -46,9 +46,8 @@ class StaticLoads {
   void add_living(const External& one, const State& state, StateView& view, const Loads& loads,
                   double& potential) const;
   void pass_to_parents();
-  void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q) const;
-  void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent,
-                      Eigen::VectorXd& q) const;
+  void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q);
+  void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent);
   void colour(const Eigen::SparseMatrix<double>& pattern);
   Evaluation moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q, System::Workspace& work);
 

@@ -59,7 +59,7 @@ Evaluation StaticProblem::evaluate(StaticState& at) {
   at.pushed = loads_.sum();
   at.residual.resize(size());
   for (Eigen::Index k = 0; k < size(); ++k)
-    at.residual[k] = at.gradient[coordinates_.in_gradient(k)] - at.load * at.loads[k];
+    at.residual[k] = coordinates_.in(at.gradient, k) - at.load * at.loads[k];
   if (std::isfinite(at.energy()) && at.residual.allFinite()) return {};
   return {Evaluation::Outcome::not_finite, 0};
 }
@@ -94,12 +94,14 @@ Evaluation StaticProblem::drift(const StaticState& at, double by_load, double by
   for (const Anchor& anchor : model_of(system_).anchors) {
     if (!anchor.motion || !anchor.holds_position || elastic_.cols() != at.gradient.size()) continue;
     const auto node = static_cast<Eigen::Index>(system_.rods()[anchor.rod].first + anchor.node);
-    const Vec3 move = anchor.motion(there.time).position - anchor.motion(at.state.time).position;
+    const Vec3 move =
+        coordinates_.held(static_cast<std::size_t>(node),
+                          anchor.motion(there.time).position - anchor.motion(at.state.time).position);
     for (Eigen::Index axis = 0; axis < 3; ++axis) after += move[axis] * elastic_.col(3 * node + axis);
   }
   for (Eigen::Index k = 0; k < size(); ++k) {
-    const Eigen::Index g = coordinates_.in_gradient(k);
-    rate[k] += (after[g] - before[g] - at.load * (loads[k] - at.loads[k])) / share;
+    const double grown = coordinates_.in(after, k) - coordinates_.in(before, k);
+    rate[k] += (grown - at.load * (loads[k] - at.loads[k])) / share;
   }
   return {};
 }
@@ -107,14 +109,16 @@ Evaluation StaticProblem::drift(const StaticState& at, double by_load, double by
 Evaluation StaticProblem::tangent(const StaticState& at, Eigen::SparseMatrix<double>& k) {
   Eigen::SparseMatrix<double>& elastic = elastic_;
   if (const Evaluation e = elastic_stiffness(system_, at.state, elastic, *work_); !e.ok()) return e;
+  Eigen::SparseMatrix<double> turned;
+  if (coordinates_.any_slides()) coordinates_.turn_to_axes(turned = elastic);
+  const Eigen::SparseMatrix<double>& along = coordinates_.any_slides() ? turned : elastic;
   std::vector<std::pair<Eigen::Index, double>> column;
   k.resize(size(), size());
   k.setZero();
-  k.reserve(conservative_ ? elastic.nonZeros() * 11 / 20 + size() : elastic.nonZeros());
+  k.reserve(conservative_ ? along.nonZeros() * 11 / 20 + size() : along.nonZeros());
   for (Eigen::Index c = 0; c < size(); ++c) {
     column.clear();
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(elastic, coordinates_.in_gradient(c)); entry;
-         ++entry)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(along, coordinates_.in_gradient(c)); entry; ++entry)
       if (const Eigen::Index r = coordinates_.row_of(entry.row()); r >= (conservative_ ? c : 0))
         column.emplace_back(r, entry.value());
     std::sort(column.begin(), column.end());
@@ -174,7 +178,12 @@ void StaticProblem::put_turning(std::size_t k, std::size_t j, double c, const Ve
       for (int r = 0; r < 3; ++r)
         for (int q = 0; q < 3; ++q) {
           const Eigen::Index row = coordinates_.row(k + a, r), column = coordinates_.row(j + b, q);
-          if (row >= 0 && column >= 0) out.emplace_back(row, column, a == b ? by(r, q) : -by(r, q));
+          if (row < 0 || column < 0) continue;
+          const Vec3 of_column(coordinates_.along(j + b, q, by.row(0)),
+                               coordinates_.along(j + b, q, by.row(1)),
+                               coordinates_.along(j + b, q, by.row(2)));
+          const double entry = coordinates_.along(k + a, r, of_column);
+          out.emplace_back(row, column, a == b ? entry : -entry);
         }
 }
 
@@ -189,8 +198,8 @@ double StaticProblem::largest(const Eigen::VectorXd& residual) const {
 double StaticProblem::pushed(const StaticState& at) const {
   double most = std::abs(at.load) * at.pushed;
   for (std::size_t i = 0; i < system_.node_count(); ++i)
-    if (coordinates_.holds_position(i))
-      most = std::max(most, at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i)).norm());
+    if (coordinates_.holds_position(i) || coordinates_.axes(i))
+      most = std::max(most, coordinates_.held(i, tendril::at(at.gradient, i)).norm());
   return most;
 }
 
@@ -248,7 +257,7 @@ std::vector<Support> StaticProblem::supports(const StaticState& at) {
     const std::size_t i = system_.rods()[anchor.rod].first + anchor.node;
     const Vec3 elastic = at.gradient.segment<3>(3 * static_cast<Eigen::Index>(i));
     Support& support = supports.emplace_back();
-    if (anchor.holds_position) support.force = elastic - share * loads_.force()[i];
+    support.force = coordinates_.held(i, elastic - share * loads_.force()[i]);
     if (coordinates_.holds_frame(i)) support.torque = -torques[i] - share * loads_.torque()[i];
   }
   return supports;

@@ -138,6 +138,8 @@ class BlockSolver : public StiffSolver {
       by_x_.release(held.node, held.coordinate);
       if (by_u_) by_u_->release(held.node, held.coordinate);
     }
+    for (const Model::Slider& slider : model_.sliders)
+      if (by_u_) by_u_->project(slider.node, slider.free);
     if (timed_ && fails(take_time(state, rate))) return -1;
     return evaluations + (timed_ ? 1 : 0);
   }
@@ -157,6 +159,7 @@ class BlockSolver : public StiffSolver {
       if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
       matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
     }
+    for (const Model::Slider& slider : model_.sliders) hold(slider);
     return matrix_.factor();
   }
 
@@ -217,6 +220,14 @@ class BlockSolver : public StiffSolver {
     angle_.push_back(-1);
     for (std::size_t c = 0; c < 3; ++c) mass_[4 * k + c] = mass;
     if (B == 4) held_.push_back({pattern_.node(k), 3});
+  }
+  /// What holds a sliding node is as stiff as what does not: no pivot is lost beside another.
+  void hold(const Model::Slider& slider) {
+    matrix_.project(slider.node, slider.free);
+    auto* diagonal = matrix_.find(slider.node, slider.node);
+    double trace = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) trace += diagonal->column[c][c];
+    diagonal->add(trace * (Mat3::Identity() - slider.free));
   }
   void set(std::size_t k, std::size_t c, bool free, double mass) {
     if (!free) {

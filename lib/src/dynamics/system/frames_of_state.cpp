@@ -91,12 +91,14 @@ Evaluation System::rebase(State& state, Workspace& work) const {
   Kinematics& kin = work.kinematics;
   if (const Evaluation at = kinematics(model, state, state.time, state.y, Motion::positions, kin); !at.ok())
     return at;
-  for (std::size_t i = 0; i < model.nodes; ++i) {
-    if (!model.holds_position(i)) continue;
+  const auto put = [&](std::size_t i) {
     const auto at = 3 * static_cast<Eigen::Index>(i);
     state.y.segment<3>(at) = kin.p[i];
     state.y.segment<3>(model.v_begin() + at) = kin.v[i];
-  }
+  };
+  for (std::size_t i = 0; i < model.nodes; ++i)
+    if (model.holds_position(i)) put(i);
+  for (const Model::Slider& slider : model.sliders) put(slider.node);
   for (const Model::Segment& segment : model.segments)
     if (segment.twist) rebase_twisted(model, segment, kin, state);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {

@@ -54,6 +54,7 @@ std::vector<Support> supports_of(const System& system, const State& state) {
     if (anchor.until <= model.from) continue;
     const std::size_t i = model.rods[anchor.rod].first + anchor.node;
     if (anchor.holds_position) support.force = force_on(model, anchor, i, state.time, work->pull);
+    if (const Model::Slider* slider = model.slider_of(i)) support.force -= slider->free * support.force;
     if (anchor.holds_frame) support.torque = torque_on(model, anchor, i, state.time, *work);
   }
   return out;

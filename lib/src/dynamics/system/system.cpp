@@ -99,6 +99,9 @@ Energies System::energies(const State& state, Workspace& work) const {
       result.kinetic += 0.5 * model.inertia[i] * kin.spin[i] * kin.spin[i];
     result.potential -= model.mass[i] * model.gravity.dot(kin.p[i]);
   }
+  for (const Model::Slider& slider : model.sliders)
+    result.kinetic -=
+        0.5 * model.moved_mass[slider.node] * slider.carried(kin.pose[slider.anchor]).squaredNorm();
   add_body_energies(model, kin.bodies, result);
   if (!model.loaded) return result;
   StateView seen = view(model, state.time, kin, loads);
