@@ -99,5 +99,27 @@ TEST(Stiffness, IsExactWithoutTwistState) {
     EXPECT_LT(hessian_error(system, test::stirred(system, random, 0.02)), 1e-8) << trial;
 }
 
+void expect_exact(int edges, Scene::Twist twist, Random& random) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(edges, 1e4, 0.2 / edges));
+  scene.rods.push_back(test::straight_rod(edges % 5 + 1, 1e4, 0.05));
+  if (edges > 1) scene.anchors.push_back({0, 0, true, true, {}});
+  scene.twist = twist;
+  const System system(scene);
+  ASSERT_EQ(system.twist_count() > 0, twist == Scene::Twist::everywhere);
+  for (const double by : {0.01, 0.3})
+    EXPECT_LT(hessian_error(system, test::stirred(system, random, by / edges), 1e-3 / edges), 1e-8)
+        << edges << " edges, stirred by " << by;
+}
+
+/// Nodes are taken four at a time, and so many without twist at once: rods of every number, so that the ends
+/// of all these fall everywhere. Stirred a little, all angles are small; stirred more, some are not.
+TEST(Stiffness, IsExactForRodsOfAnyNumberOfEdges) {
+  Random random(43);
+  for (int edges = 1; edges < 8; ++edges) expect_exact(edges, Scene::Twist::everywhere, random);
+  for (const int edges : {1, 2, 3, 4, 5, 6, 7, 31, 32, 34})
+    expect_exact(edges, Scene::Twist::where_needed, random);
+}
+
 }  // namespace
 }  // namespace tendril

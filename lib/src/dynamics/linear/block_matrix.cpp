@@ -217,22 +217,28 @@ TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, c
   multiply_add_blocks<4>(p, d, u, l, s, x, y);
 }
 
-template <int B>
-TENDRIL_INLINE void add_each(std::size_t count, const Block<B>* from, Block<B>* const* to) {
+template <int N, int B>
+TENDRIL_INLINE void add_each(std::size_t count, const Block<N>* from, Block<B>* const* to) {
   for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t c = 0; c < B; ++c) four(to[k]->column[c]) += four(from[k].column[c]);
+    for (std::size_t c = 0; c < N; ++c) four(to[k]->column[c]) += four(from[k].column[c]);
 }
 TENDRIL_LANES void add_three(std::size_t count, const Block<3>* from, Block<3>* const* to) {
-  add_each<3>(count, from, to);
+  add_each(count, from, to);
+}
+TENDRIL_LANES void add_three_to_four(std::size_t count, const Block<3>* from, Block<4>* const* to) {
+  add_each(count, from, to);
 }
 TENDRIL_LANES void add_four(std::size_t count, const Block<4>* from, Block<4>* const* to) {
-  add_each<4>(count, from, to);
+  add_each(count, from, to);
 }
 
 }  // namespace
 
 void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to) {
   add_three(count, from, to);
+}
+void add_blocks(std::size_t count, const Block<3>* from, Block<4>* const* to) {
+  add_three_to_four(count, from, to);
 }
 void add_blocks(std::size_t count, const Block<4>* from, Block<4>* const* to) {
   add_four(count, from, to);

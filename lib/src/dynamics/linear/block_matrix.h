@@ -61,6 +61,7 @@ class BlockMatrix {
 /// Adds blocks to those at the addresses given, one each.
 void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to);
 void add_blocks(std::size_t count, const Block<4>* from, Block<4>* const* to);
+void add_blocks(std::size_t count, const Block<3>* from, Block<4>* const* to);
 
 extern template class BlockMatrix<3>;
 extern template class BlockMatrix<4>;

@@ -363,21 +363,6 @@ Mat3 by_edge(const ByCosine& w, const Vec3& e, const Vec3& t, double z, double i
 
 }  // namespace
 
-HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Kinematics& kin) {
-  const Vec3 a = kin.e[i - 1];
-  const Vec3 b = kin.e[i];
-  const double z = a.dot(b);
-  const double la = kin.inverse_length[i - 1];
-  const double lb = kin.inverse_length[i];
-  const ByCosine w = by_cosine(0.5 * model.bending.hinge[i], a.cross(b).norm(), z);
-  const Vec3 u = la * (b - z * a);
-  const Vec3 v = lb * (a - z * b);
-  // (1 - a a^T)(1 - b b^T) = 1 - a a^T - b b^T + z a b^T
-  const Mat3 across = Mat3::Identity() - a * a.transpose() + (z * a - b) * b.transpose();
-  return {by_edge(w, a, b, z, la), w.curvature * u * v.transpose() + (w.slope * la * lb) * across,
-          by_edge(w, b, a, z, lb)};
-}
-
 Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const Kinematics& kin) {
   const Vec3 e = kin.e[i];
   const Vec3 t = kin.frame.z[node];

@@ -84,12 +84,6 @@ Mat3 stretch_stiffness(const Model& model, std::size_t i, const Kinematics& kin)
 /// k beta (e (v - (e.v) e)^T + (e.v) (1 - e e^T)) / l. Needs the velocities.
 Mat3 turned_pull(const Model& model, std::size_t i, const Kinematics& kin);
 
-/// 1/4 K phi^2 at node i of a rod without twist, by the vectors along its two edges.
-struct HingeStiffness {
-  Mat3 first, mixed, second;
-};
-HingeStiffness hinge_stiffness(const Model& model, std::size_t i, const Kinematics& kin);
-
 /// 1/2 K angle^2 between edge i and the held frame of `node` at one of its ends, by the vector along the
 /// edge.
 Mat3 held_hinge_stiffness(const Model& model, std::size_t node, std::size_t i, const Kinematics& kin);

@@ -5,6 +5,7 @@
 
 #include "edge_pack.h"
 #include "edge_stiffness.h"
+#include "hinge_band.h"
 
 namespace tendril {
 
@@ -57,21 +58,6 @@ void visit_edge(std::size_t i, const Mat3& k, double scale, Sink& sink) {
   sink.block(i + 1, i + 1, Mat3(scale * k));
   sink.block(i, i + 1, Mat3(-scale * k));
   sink.block(i + 1, i, Mat3(-scale * k));
-}
-
-template <class Sink>
-void visit_hinge(std::size_t i, const HingeStiffness& h, double scale, Sink& sink) {
-  const Mat3 low = scale * (h.mixed - h.first);
-  const Mat3 high = scale * (h.mixed - h.second);
-  sink.block(i - 1, i - 1, Mat3(scale * h.first));
-  sink.block(i + 1, i + 1, Mat3(scale * h.second));
-  sink.block(i, i, Mat3(-low - high.transpose()));
-  sink.block(i - 1, i, low);
-  sink.block(i, i - 1, Mat3(low.transpose()));
-  sink.block(i, i + 1, high);
-  sink.block(i + 1, i, Mat3(high.transpose()));
-  sink.block(i - 1, i + 1, Mat3(-scale * h.mixed));
-  sink.block(i + 1, i - 1, Mat3(-scale * h.mixed.transpose()));
 }
 
 /// What the turn of a hub takes off the stiffness, by the rows of one of its children and the columns of
@@ -160,10 +146,7 @@ void visit_stiffness(const Model& model, const State& reference, const Kinematic
       });
       continue;
     }
-    for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i) {
-      visit_edge(i, stretch_stiffness(model, i, kin), scale, sink);
-      if (model.bending.hinge[i] > 0.0) visit_hinge(i, hinge_stiffness(model, i, kin), scale, sink);
-    }
+    visit_hinges(model, rod, kin, scale, sink);
   }
   visit_hubs(model, reference, kin, scale, sink);
   for (const std::size_t node : model.bending.held_hinges) {
