@@ -13,6 +13,8 @@
 
 #if defined(__clang__)
 #define TENDRIL_LOOP _Pragma("clang loop vectorize(assume_safety)")
+#define TENDRIL_UNROLL _Pragma("unroll")
 #else
 #define TENDRIL_LOOP _Pragma("GCC ivdep")
+#define TENDRIL_UNROLL _Pragma("GCC unroll 4")
 #endif

@@ -17,63 +17,125 @@ TENDRIL_INLINE Four& four(std::array<double, 4>& a) {
   return *reinterpret_cast<Four*>(a.data());
 }
 
+TENDRIL_INLINE Four& at(double* x) {
+  return *reinterpret_cast<Four*>(x);
+}
+
 /// to -= a b
 template <int B>
 TENDRIL_INLINE void subtract_product(const Block<B>& a, const Block<B>& b, Block<B>& to) {
+  TENDRIL_UNROLL
   for (std::size_t c = 0; c < B; ++c) {
-    Four sum = four(a.column[0]) * b.column[c][0];
-    for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * b.column[c][k];
-    four(to.column[c]) -= sum;
+    Four sum = four(to.column[c]);
+    TENDRIL_UNROLL
+    for (std::size_t k = 0; k < B; ++k) sum -= four(a.column[k]) * b.column[c][k];
+    four(to.column[c]) = sum;
   }
 }
 
-template <int B>
-TENDRIL_INLINE void transpose(const Block<B>& a, Block<B>& to) {
-  for (std::size_t c = 0; c < B; ++c)
-    for (std::size_t r = 0; r < B; ++r) to.column[c][r] = a.column[r][c];
+/// Four columns by four numbers, as rows and back.
+TENDRIL_INLINE void transpose(lanes::Pack (&x)[4]) {
+  const lanes::Pack a = __builtin_shufflevector(x[0], x[1], 0, 4, 2, 6);
+  const lanes::Pack b = __builtin_shufflevector(x[0], x[1], 1, 5, 3, 7);
+  const lanes::Pack c = __builtin_shufflevector(x[2], x[3], 0, 4, 2, 6);
+  const lanes::Pack d = __builtin_shufflevector(x[2], x[3], 1, 5, 3, 7);
+  x[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  x[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  x[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  x[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// L U of a block in place, the pivots inverted, without pivoting: the blocks are close to s^2 times a mass,
-/// or stiff and definite. Substitution with these factors, unlike an inverse of the block, keeps what is soft
-/// beside what is stiff.
+/// L D U of a block in place, L and U with ones on their diagonals and D inverted, without pivoting: the
+/// blocks are close to s^2 times a mass, or stiff and definite. Substitution with these factors, unlike an
+/// inverse of the block, keeps what is soft beside what is stiff.
 template <int B>
-TENDRIL_INLINE bool decompose(Block<B>& a) {
+TENDRIL_INLINE bool decompose(Block<B>& block) {
+  double a[B][B];  // by rows
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) {
+    TENDRIL_UNROLL
+    for (std::size_t r = 0; r < B; ++r) a[r][c] = block.column[c][r];
+  }
+  bool good = true;
+  TENDRIL_UNROLL
   for (std::size_t k = 0; k < B; ++k) {
     double largest = 0.0;
-    for (std::size_t c = k + 1; c < B; ++c) largest = std::max(largest, std::fabs(a.column[c][k]));
-    const double pivot = a.column[k][k];
-    if (!(std::fabs(pivot) > 1e-12 * largest) || !(std::fabs(pivot) < 1e300)) return false;
+    TENDRIL_UNROLL
+    for (std::size_t c = k + 1; c < B; ++c) largest = std::max(largest, std::fabs(a[k][c]));
+    const double pivot = a[k][k];
+    good &= std::fabs(pivot) > 1e-12 * largest && std::fabs(pivot) < 1e300;
     const double inverse = 1.0 / pivot;
-    a.column[k][k] = inverse;
+    a[k][k] = inverse;
+    TENDRIL_UNROLL
     for (std::size_t r = k + 1; r < B; ++r) {
-      a.column[k][r] *= inverse;
-      for (std::size_t c = k + 1; c < B; ++c) a.column[c][r] -= a.column[k][r] * a.column[c][k];
+      a[r][k] *= inverse;
+      TENDRIL_UNROLL
+      for (std::size_t c = k + 1; c < B; ++c) a[r][c] -= a[r][k] * a[k][c];
     }
+    TENDRIL_UNROLL
+    for (std::size_t c = k + 1; c < B; ++c) a[k][c] *= inverse;
   }
-  return true;
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) {
+    TENDRIL_UNROLL
+    for (std::size_t r = 0; r < B; ++r) block.column[c][r] = a[r][c];
+  }
+  return good;
 }
 
-/// x = L^-1 x, or U^-1 x, for a column of numbers.
+/// x = L^-1 x, or (D U)^-1 x, for a column of numbers.
 template <int B>
-TENDRIL_INLINE void substitute_lower(const Block<B>& factors, double* x) {
-  for (std::size_t k = 0; k + 1 < B; ++k)
+TENDRIL_INLINE void substitute_lower(const Block<B>& factors, double (&x)[B]) {
+  TENDRIL_UNROLL
+  for (std::size_t k = 0; k + 1 < B; ++k) {
+    TENDRIL_UNROLL
     for (std::size_t r = k + 1; r < B; ++r) x[r] -= factors.column[k][r] * x[k];
+  }
 }
 template <int B>
-TENDRIL_INLINE void substitute_upper(const Block<B>& factors, double* x) {
-  for (std::size_t k = B; k-- > 0;) {
-    x[k] *= factors.column[k][k];
-    for (std::size_t r = 0; r < k; ++r) x[r] -= factors.column[k][r] * x[k];
+TENDRIL_INLINE void substitute_upper(const Block<B>& factors, double (&x)[B]) {
+  TENDRIL_UNROLL
+  for (std::size_t k = 0; k < B; ++k) x[k] *= factors.column[k][k];
+  TENDRIL_UNROLL
+  for (std::size_t k = 1; k < B; ++k) {
+    TENDRIL_UNROLL
+    for (std::size_t r = 0; r < B - k; ++r) x[r] -= factors.column[B - k][r] * x[B - k];
   }
 }
 
-/// a = a U^-1
+/// a = L^-1 a; and by = (a^T of it) D^-1, where it is asked for
+template <int B, bool WithTranspose>
+TENDRIL_INLINE void divide_by_lower(const Block<B>& factors, Block<B>& a, Block<B>& by) {
+  lanes::Pack row[4] = {};
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) row[c] = four(a.column[c]);
+  transpose(row);
+  TENDRIL_UNROLL
+  for (std::size_t k = 0; k + 1 < B; ++k) {
+    TENDRIL_UNROLL
+    for (std::size_t r = k + 1; r < B; ++r) row[r] -= factors.column[k][r] * row[k];
+  }
+  if constexpr (WithTranspose) {
+    TENDRIL_UNROLL
+    for (std::size_t c = 0; c < B; ++c) four(by.column[c]) = row[c] * factors.column[c][c];
+  }
+  transpose(row);
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) four(a.column[c]) = row[c];
+}
+
+/// a = a (D U)^-1
 template <int B>
 TENDRIL_INLINE void divide_by_upper(const Block<B>& factors, Block<B>& a) {
+  lanes::Pack column[B];
+  TENDRIL_UNROLL
   for (std::size_t c = 0; c < B; ++c) {
-    for (std::size_t k = 0; k < c; ++k) four(a.column[c]) -= four(a.column[k]) * factors.column[c][k];
-    four(a.column[c]) *= factors.column[c][c];
+    column[c] = four(a.column[c]);
+    TENDRIL_UNROLL
+    for (std::size_t k = 0; k < c; ++k) column[c] -= column[k] * factors.column[c][k];
   }
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) four(a.column[c]) = column[c] * factors.column[c][c];
 }
 
 template <int B>
@@ -83,7 +145,7 @@ struct Parts {
   Block<B>* lower;
 };
 
-/// The scalar elimination, block by block: D = L U, upper blocks L^-1 A, lower blocks A U^-1 (in the
+/// The scalar elimination, block by block: L D U, upper blocks L^-1 A, lower blocks A (D U)^-1 (in the
 /// symmetric case the transposes of the upper ones times the inverse pivots).
 template <int B, bool Symmetric>
 TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m) {
@@ -94,15 +156,8 @@ TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m
     const std::size_t count = pattern.begin(k + 1) - begin;
     const std::size_t* pair = pattern.pairs(k);
     for (std::size_t a = 0; a < count; ++a) {
-      Block<B>& upper = m.upper[begin + a];
-      for (std::size_t c = 0; c < B; ++c) substitute_lower<B>(factors, upper.column[c].data());
-      Block<B>& lower = m.lower[begin + a];
-      if constexpr (Symmetric) {
-        transpose<B>(upper, lower);
-        for (std::size_t c = 0; c < B; ++c) four(lower.column[c]) *= factors.column[c][c];
-      } else {
-        divide_by_upper<B>(factors, lower);
-      }
+      divide_by_lower<B, Symmetric>(factors, m.upper[begin + a], m.lower[begin + a]);
+      if constexpr (!Symmetric) divide_by_upper<B>(factors, m.lower[begin + a]);
     }
     for (std::size_t a = 0; a < count; ++a) {
       subtract_product<B>(m.lower[begin + a], m.upper[begin + a], m.diagonal[pattern.later(begin + a)]);
@@ -115,41 +170,47 @@ TENDRIL_INLINE bool factor_blocks(const BlockPattern& pattern, const Parts<B>& m
   return true;
 }
 
-/// sum = a x
+/// y -= a x, the columns in the order in which a substitution gives their numbers
 template <int B>
-TENDRIL_INLINE void apply(const Block<B>& a, const double* x, Four& sum) {
-  sum = four(a.column[0]) * x[0];
-  for (std::size_t k = 1; k < B; ++k) sum += four(a.column[k]) * x[k];
+TENDRIL_INLINE void subtract_upwards(const Block<B>& a, const double* x, lanes::Pack& y) {
+  TENDRIL_UNROLL
+  for (std::size_t c = 0; c < B; ++c) y -= four(a.column[c]) * x[c];
 }
-
 template <int B>
-TENDRIL_INLINE void subtract(const Block<B>& a, const double* x, Four& from) {
-  Four sum;
-  apply<B>(a, x, sum);
-  from -= sum;
-}
-
-TENDRIL_INLINE Four& at(double* x) {
-  return *reinterpret_cast<Four*>(x);
+TENDRIL_INLINE void subtract_downwards(const Block<B>& a, const double* x, lanes::Pack& y) {
+  TENDRIL_UNROLL
+  for (std::size_t c = 1; c <= B; ++c) y -= four(a.column[B - c]) * x[B - c];
 }
 
 template <int B>
 TENDRIL_INLINE void solve_blocks(const BlockPattern& pattern, const Block<B>* diagonal, const Block<B>* upper,
                                  const Block<B>* lower, double* b) {
   const std::size_t n = pattern.size();
+  const std::size_t* later = pattern.later();
+  const std::size_t* begin = pattern.begin();
+  double x[B];
   for (std::size_t k = 0; k < n; ++k) {
-    double* x = b + 4 * k;
+    TENDRIL_UNROLL
+    for (std::size_t c = 0; c < B; ++c) x[c] = b[4 * k + c];
     substitute_lower<B>(diagonal[k], x);
-    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
-      subtract<B>(lower[e], x, at(b + 4 * pattern.later(e)));
+    TENDRIL_UNROLL
+    for (std::size_t c = 0; c < B; ++c) b[4 * k + c] = x[c];
+    for (std::size_t e = begin[k]; e < begin[k + 1]; ++e) {
+      Four& to = at(b + 4 * later[e]);
+      lanes::Pack sum = to;
+      subtract_upwards<B>(lower[e], x, sum);
+      to = sum;
+    }
   }
   for (std::size_t k = n; k-- > 0;) {
-    Four sum = at(b + 4 * k);
-    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e)
-      subtract<B>(upper[e], b + 4 * pattern.later(e), sum);
-    double x[4];
-    at(x) = sum;
+    lanes::Pack sum = at(b + 4 * k);
+    // What is known last comes last.
+    for (std::size_t e = begin[k + 1]; e-- > begin[k];)
+      subtract_downwards<B>(upper[e], b + 4 * later[e], sum);
+    TENDRIL_UNROLL
+    for (std::size_t c = 0; c < B; ++c) x[c] = sum[c];
     substitute_upper<B>(diagonal[k], x);
+    TENDRIL_UNROLL
     for (std::size_t c = 0; c < B; ++c) b[4 * k + c] = x[c];
   }
 }
@@ -190,31 +251,33 @@ void negate(const std::vector<Block<B>>& a, double s, const std::vector<Block<B>
   negate(4 * B * to.size(), numbers(a), s, b ? numbers(*b) : nullptr, to.front().column.front().data());
 }
 
-/// y += s A x
+/// y -= A x
 template <int B>
-TENDRIL_INLINE void multiply_add_blocks(const BlockPattern& pattern, const Block<B>* diagonal,
-                                        const Block<B>* upper, const Block<B>* lower, double s,
-                                        const double* x, double* y) {
+TENDRIL_INLINE void subtract_product_of_blocks(const BlockPattern& pattern, const Block<B>* diagonal,
+                                               const Block<B>* upper, const Block<B>* lower, const double* x,
+                                               double* y) {
+  const std::size_t* later = pattern.later();
+  const std::size_t* begin = pattern.begin();
   for (std::size_t k = 0; k < pattern.size(); ++k) {
-    Four sum;
-    apply<B>(diagonal[k], x + 4 * k, sum);
-    at(y + 4 * k) += s * sum;
-    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
-      const std::size_t other = 4 * pattern.later(e);
-      apply<B>(upper[e], x + other, sum);
-      at(y + 4 * k) += s * sum;
-      apply<B>(lower[e], x + 4 * k, sum);
-      at(y + other) += s * sum;
+    lanes::Pack own = at(y + 4 * k);
+    subtract_upwards<B>(diagonal[k], x + 4 * k, own);
+    for (std::size_t e = begin[k]; e < begin[k + 1]; ++e) {
+      const std::size_t other = 4 * later[e];
+      subtract_upwards<B>(upper[e], x + other, own);
+      lanes::Pack sum = at(y + other);
+      subtract_upwards<B>(lower[e], x + 4 * k, sum);
+      at(y + other) = sum;
     }
+    at(y + 4 * k) = own;
   }
 }
-TENDRIL_LANES void multiply_add_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u,
-                                      const Block<3>* l, double s, const double* x, double* y) {
-  multiply_add_blocks<3>(p, d, u, l, s, x, y);
+TENDRIL_LANES void subtract_product_three(const BlockPattern& p, const Block<3>* d, const Block<3>* u,
+                                          const Block<3>* l, const double* x, double* y) {
+  subtract_product_of_blocks<3>(p, d, u, l, x, y);
 }
-TENDRIL_LANES void multiply_add_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u,
-                                     const Block<4>* l, double s, const double* x, double* y) {
-  multiply_add_blocks<4>(p, d, u, l, s, x, y);
+TENDRIL_LANES void subtract_product_four(const BlockPattern& p, const Block<4>* d, const Block<4>* u,
+                                         const Block<4>* l, const double* x, double* y) {
+  subtract_product_of_blocks<4>(p, d, u, l, x, y);
 }
 
 template <int N, int B>
@@ -331,10 +394,11 @@ void BlockMatrix<B>::solve(double* b) const {
 }
 
 template <int B>
-void BlockMatrix<B>::multiply_add(double s, const double* x, double* y) const {
-  if constexpr (B == 4) multiply_add_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+void BlockMatrix<B>::subtract_product(const double* x, double* y) const {
+  if constexpr (B == 4)
+    subtract_product_four(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), x, y);
   if constexpr (B == 3)
-    multiply_add_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), s, x, y);
+    subtract_product_three(*pattern_, diagonal_.data(), upper_.data(), lower_.data(), x, y);
 }
 
 template class BlockMatrix<3>;

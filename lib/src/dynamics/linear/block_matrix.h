@@ -47,8 +47,8 @@ class BlockMatrix {
   bool factor();
   /// Solves with the factors, in place: four numbers a pivot, in the pivots' order.
   void solve(double* b) const;
-  /// y += s A x, before factoring, not symmetric; laid out like b.
-  void multiply_add(double s, const double* x, double* y) const;
+  /// y -= A x, before factoring, not symmetric; laid out like b.
+  void subtract_product(const double* x, double* y) const;
 
   const BlockPattern& pattern() const { return *pattern_; }
 

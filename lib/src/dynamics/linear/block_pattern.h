@@ -33,6 +33,8 @@ class BlockPattern {
   /// Later neighbours of a pivot, ascending: those from begin(pivot) to begin(pivot + 1).
   std::size_t begin(std::size_t pivot) const { return begin_[pivot]; }
   std::size_t later(std::size_t entry) const { return later_[entry]; }
+  const std::size_t* begin() const { return begin_.data(); }
+  const std::size_t* later() const { return later_.data(); }
   std::size_t low(std::size_t entry) const { return low_[entry]; }  ///< the pivot whose entry it is
 
   /// Entry of the pair of pivots (low, high), low < high; size of entries() where they do not couple.

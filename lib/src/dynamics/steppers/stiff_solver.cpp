@@ -174,7 +174,7 @@ class BlockSolver : public StiffSolver {
     }
     rigid_.put_right(s, r, b_.data());
     if (bodies_) bodies_->keep(b_.data());
-    if (by_u_) by_u_->multiply_add(-1.0, x_.data(), b_.data());
+    if (by_u_) by_u_->subtract_product(x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
     matrix_.solve(b_.data());
     if (bodies_) bodies_->restore([&](std::size_t i) { return s * (s * mass_[i] + damping_[i]); }, b_.data());
