@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/coupling/elimination.h"
+#include "dynamics/scene/model.h"
 #include "dynamics/scene/words.h"
 
 namespace tendril {
@@ -15,7 +16,7 @@ namespace {
 
 // A step of RODAS costs about as much as this many of Cash-Karp.
 constexpr double kImplicitCost = 4.5;
-constexpr double kImplicitCostWithTwist = 12.0;
+constexpr double kImplicitCostWithTwist = 9.0;
 // No change back and forth: explicit steps must be too dear, or cheap enough, by this factor.
 constexpr double kMargin = 2.0;
 // The first step is a guess: to leave at once they must be dearer by this factor more. Else the next look is
@@ -25,6 +26,10 @@ constexpr long kDoubt = 16;
 // Accepted implicit steps between looks at the choice, doubled while far from a change.
 constexpr long kImplicitInterval = 16;
 constexpr long kLongestInterval = 256;
+// Of explicit steps tried between two looks, those in vain that tell of trouble at the cap; and a step that is
+// near it.
+constexpr double kInVain = 0.05, kNearCap = 0.25;
+constexpr long kLongestWait = 64;  // looks between two trials
 
 }  // namespace
 
@@ -33,6 +38,7 @@ Automatic::Automatic(const System& system, State start, const SimulationOptions&
     : ChosenSteps(system, std::move(start), options, std::move(stepper)),
       cost_(system.twist_count() > 0 ? kImplicitCostWithTwist : kImplicitCost),
       implicit_interval_(kImplicitInterval / 2) {
+  for (const Model::Segment& segment : model_of(system).segments) decays_ = decays_ || segment.viscous;
   try {
     pattern_of_equations(model_of(system));
   } catch (const InvalidInput& refusal) {
@@ -52,6 +58,16 @@ void Automatic::look_again_later(double ratio) {
       far ? std::clamp(2 * implicit_interval_, kImplicitInterval, kLongestInterval) : kImplicitInterval;
 }
 
+/// What decays or rings at the cap is seen by the error estimate of explicit steps, too: the steps that they
+/// wish for are no measure of what implicit ones could do. That is found out by trying.
+bool Automatic::struggles() {
+  const long in_vain = report_.rejected - std::exchange(rejected_, report_.rejected);
+  const long accepted = report_.accepted - std::exchange(accepted_, report_.accepted);
+  if (wait_ > 0) --wait_;
+  const bool often = static_cast<double>(in_vain) > kInVain * static_cast<double>(accepted);
+  return wait_ == 0 && (often || decays_) && control_.step() > kNearCap * guard_.step();
+}
+
 void Automatic::look_ahead() {
   const bool stiff = stepper_->stiff();
   if (stiff) foresee();
@@ -63,7 +79,9 @@ void Automatic::look_ahead() {
   const double wish = first || stiff ? control_.step() : control_.wish();
   const double ratio = wish / guard_.step();
   const bool too_dear = !stiff && (ratio > (first ? kCertain : 1.0) * kMargin * cost_ || !explicit_fits());
-  const bool cheap_enough = stiff && ratio < cost_ / kMargin && explicit_fits();
+  const bool tries = !stiff && due && !first && !too_dear && bound_.empty() && struggles();
+  const bool tried = stiff && std::exchange(trial_, false);
+  const bool cheap_enough = stiff && ratio < (tried ? cost_ : cost_ / kMargin) && explicit_fits();
   const std::string why =
       sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ", guard_.step());
   const auto tell = [&](const std::string& reason) {
@@ -71,9 +89,12 @@ void Automatic::look_ahead() {
   };
   if (first) tell(too_dear && bound_.empty() ? "runs begin with explicit steps" : why + bound_);
   if (too_dear && !bound_.empty()) return refuse_where_too_dear();
-  if (too_dear) turn_to(std::make_unique<Rodas>(system_));
+  if (too_dear || tries) turn_to(std::make_unique<Rodas>(system_));
   if (cheap_enough) turn_to(std::make_unique<CashKarp>(system_));
   if (too_dear || cheap_enough) tell(why);
+  if (tries) tell("explicit steps stay at the guard's cap, or are tried in vain there");
+  trial_ = tries;
+  if (tried && cheap_enough) wait_ = longest_wait_ = std::min(2 * longest_wait_, kLongestWait);
   look_again_later(ratio);
 }
 
