@@ -152,8 +152,19 @@ TENDRIL_LANES void add_four(std::size_t count, const Block<4>* from, Block<4>* c
   add_each(count, from, to);
 }
 
+TENDRIL_LANES void add_columns(std::size_t count, const BlockProduct* products) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const BlockProduct& p = products[k];
+    const lanes::Pack column = lanes::load<lanes::Pack>(p.column);
+    for (std::size_t c = 0; c < 3; ++c) four(p.to->column[c]) += column * p.row[c];
+  }
+}
+
 }  // namespace
 
+void add_products(std::size_t count, const BlockProduct* products) {
+  add_columns(count, products);
+}
 void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to) {
   add_three(count, from, to);
 }

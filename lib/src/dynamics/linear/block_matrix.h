@@ -58,6 +58,14 @@ class BlockMatrix {
   bool symmetric_;
 };
 
+/// The product of a column of four numbers and a row of three, for the first three columns of a block.
+struct BlockProduct {
+  const double* column;
+  const double* row;
+  Block<4>* to;
+};
+void add_products(std::size_t count, const BlockProduct* products);
+
 /// Adds blocks to those at the addresses given, one each.
 void add_blocks(std::size_t count, const Block<3>* from, Block<3>* const* to);
 void add_blocks(std::size_t count, const Block<4>* from, Block<4>* const* to);

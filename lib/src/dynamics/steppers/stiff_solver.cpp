@@ -19,6 +19,7 @@
 #include "dynamics/stiffness/stiffness_elements.h"
 #include "dynamics/stiffness/turning.h"
 #include "dynamics/stiffness/viscous_turning.h"
+#include "pivot_layout.h"
 
 namespace tendril {
 namespace {
@@ -149,12 +150,10 @@ class BlockSolver : public StiffSolver {
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       auto* diagonal = matrix_.find(pattern_.node(k), pattern_.node(k));
       for (std::size_t c = 0; c < B; ++c)
-        diagonal->column[c][c] += s * (s * mass_[4 * k + c] + damping_[4 * k + c]);
+        diagonal->column[c][c] += s * (s * at_.mass[4 * k + c] + at_.damping[4 * k + c]);
     }
     if (by_u_) rigid_.add_inertia(s, *by_u_, matrix_);
-    if (links_.empty())
-      for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
-    for (const Link& link : links_) add_connection(s, link);
+    if constexpr (B == 4) add_connections(s);
     for (const Held& held : held_) {
       if (!connections_.empty()) matrix_.release(held.node, held.coordinate);
       matrix_.entry(held.node, held.node, held.coordinate, held.coordinate) = 1.0;
@@ -164,30 +163,15 @@ class BlockSolver : public StiffSolver {
   }
 
   void solve(double s, const Eigen::VectorXd& r, Eigen::VectorXd& result) override {
-    for (std::size_t k = 0; k < pattern_.size(); ++k) {
-      const auto put = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
-        x_[4 * k + c] = r[x];
-        b_[4 * k + c] = mass_[4 * k + c] * (r[u] + s * r[x]) + damping_[4 * k + c] * r[x];
-      };
-      for (std::size_t c = 0; c < 3; ++c) put(c, place_[k] + c, rate_[k] + c);
-      if (B == 4 && angle_[k] >= 0) put(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
-    }
+    put_right(at_, s, r, x_.data(), b_.data());
     rigid_.put_right(s, r, b_.data());
     if (bodies_) bodies_->keep(b_.data());
     if (by_u_) by_u_->subtract_product(x_.data(), b_.data());
     for (const Held& held : held_) b_[4 * pattern_.pivot(held.node) + held.coordinate] = 0.0;
     matrix_.solve(b_.data());
-    if (bodies_) bodies_->restore([&](std::size_t i) { return s * (s * mass_[i] + damping_[i]); }, b_.data());
-    result.setZero(r.size());
-    for (std::size_t k = 0; k < pattern_.size(); ++k) {
-      const auto take = [&](std::size_t c, Eigen::Index x, Eigen::Index u) {
-        result[x] = b_[4 * k + c];
-        result[u] = s * b_[4 * k + c] - x_[4 * k + c];
-      };
-      for (std::size_t c = 0; c < 3; ++c) take(c, place_[k] + c, rate_[k] + c);
-      if (B == 4 && angle_[k] >= 0)
-        take(3, model_.theta_begin() + angle_[k], model_.spin_begin() + angle_[k]);
-    }
+    if (bodies_)
+      bodies_->restore([&](std::size_t i) { return s * (s * at_.mass[i] + at_.damping[i]); }, b_.data());
+    take_solution(at_, s, b_.data(), x_.data(), r.size(), result);
     rigid_.take_turning(b_.data(), result);
     for (const Connection& c : connections_)
       result[model_.spin_begin() + model_.twist_index[c.node]] -= turned_by(c);
@@ -200,25 +184,27 @@ class BlockSolver : public StiffSolver {
 
   /// Places in y, the masses of what is free, and what is held: there every rate is 0, and stays it.
   void lay_out() {
-    mass_.assign(b_.size(), 0.0);
-    damping_.assign(b_.size(), 0.0);
+    at_.theta_begin = model_.theta_begin();
+    at_.spin_begin = model_.spin_begin();
+    at_.mass.assign(b_.size(), 0.0);
+    at_.damping.assign(b_.size(), 0.0);
     for (std::size_t k = 0; k < pattern_.size(); ++k) {
       const std::size_t i = pattern_.node(k);
-      place_.push_back(model_.offset_of(i));
-      rate_.push_back(model_.rate_offset_of(i));
+      at_.place.push_back(model_.offset_of(i));
+      at_.rate.push_back(model_.rate_offset_of(i));
       if (i >= model_.nodes) {
         lay_out_body(k, (i - model_.nodes) % 2 == 0 ? model_.bodies[(i - model_.nodes) / 2].mass : 0.0);
         continue;
       }
-      angle_.push_back(B == 4 ? model_.twist_index[i] : -1);
+      at_.angle.push_back(B == 4 ? model_.twist_index[i] : -1);
       for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
       if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
     }
   }
   /// The inertia of a turn is no number an axis: see BodyBlocks.
   void lay_out_body(std::size_t k, double mass) {
-    angle_.push_back(-1);
-    for (std::size_t c = 0; c < 3; ++c) mass_[4 * k + c] = mass;
+    at_.angle.push_back(-1);
+    for (std::size_t c = 0; c < 3; ++c) at_.mass[4 * k + c] = mass;
     if (B == 4) held_.push_back({pattern_.node(k), 3});
   }
   /// What holds a sliding node is as stiff as what does not: no pivot is lost beside another.
@@ -234,8 +220,8 @@ class BlockSolver : public StiffSolver {
       held_.push_back({pattern_.node(k), c});
       return;
     }
-    mass_[4 * k + c] = mass;
-    damping_[4 * k + c] = mass * model_.damping[pattern_.node(k)];
+    at_.mass[4 * k + c] = mass;
+    at_.damping[4 * k + c] = mass * model_.damping[pattern_.node(k)];
   }
 
   Evaluation take_time(const State& state, const Eigen::VectorXd& rate) {
@@ -255,6 +241,7 @@ class BlockSolver : public StiffSolver {
   void add_turning() {
     constexpr std::size_t kPack = TurningPack::kNodes;
     connections_.clear();
+    connections_.reserve(model_.twist_nodes);
     for (const NodeRange& rod : model_.rods) {
       if (!model_.has_twist(rod.first)) continue;
       const std::size_t count = rod.count < kPack ? 1 : kPack;
@@ -297,13 +284,12 @@ class BlockSolver : public StiffSolver {
     return {};
   }
 
-  /// What (F_u - s M) C adds to one block: a row's angle column of F_u times c.by[a]. In the row of the angle
+  /// What (F_u - s M) C adds to a block is a row's angle column of F_u times c.by[a]; in the row of the angle
   /// itself also the inertia.
-  struct Link {
-    const typename BlockMatrix<B>::Block* from;
-    typename BlockMatrix<B>::Block* to;
-    std::size_t connection, a;
-    bool own;
+  struct Own {
+    Block<B>* to;
+    std::size_t angle;
+    const double* by;
   };
 
   /// Where a connection adds, as far as the pattern goes.
@@ -314,7 +300,9 @@ class BlockSolver : public StiffSolver {
       const auto* from = by_u_->find(row, c.node);
       for (std::size_t a = 0; a < 3; ++a) {
         auto* to = c.from[a] == EdgeStiffness::kNone ? nullptr : matrix_.find(row, c.from[a]);
-        if (to) links_.push_back({from, to, connection, a, row == c.node});
+        if (!to) continue;
+        links_.push_back({from->column[B - 1].data(), c.by[a].data(), to});
+        if (row == c.node) own_links_.push_back({to, 4 * own + 3, c.by[a].data()});
       }
     };
     add(c.node);
@@ -323,16 +311,14 @@ class BlockSolver : public StiffSolver {
     for (const std::size_t e : pattern_.earlier(own)) add(pattern_.node(pattern_.low(e)));
   }
 
-  void add_connection(double s, const Link& link) {
-    const Connection& c = connections_[link.connection];
-    std::array<double, 4> by = link.from->column[B - 1];
-    if (link.own) {
-      const std::size_t angle = 4 * pattern_.pivot(c.node) + 3;
-      by[3] -= s * mass_[angle] + damping_[angle];
+  void add_connections(double s) {
+    if (links_.empty())
+      for (std::size_t k = 0; k < connections_.size(); ++k) link(k);
+    add_products(links_.size(), links_.data());
+    for (const Own& own : own_links_) {
+      const double inertia = s * at_.mass[own.angle] + at_.damping[own.angle];
+      for (std::size_t c = 0; c < 3; ++c) own.to->column[c][3] -= inertia * own.by[c];
     }
-    for (std::size_t column = 0; column < 3; ++column)
-      for (std::size_t r = 0; r < B; ++r)
-        link.to->column[column][r] += by[r] * c.by[link.a][static_cast<Eigen::Index>(column)];
   }
 
   double turned_by(const Connection& c) const {
@@ -355,12 +341,12 @@ class BlockSolver : public StiffSolver {
   std::optional<BlockRoute<B>> to_u_;
   std::optional<Differences<B>> differences_;
   std::vector<Connection> connections_;
-  std::vector<Link> links_;
+  std::vector<BlockProduct> links_;  ///< of the connections, which keep their addresses
+  std::vector<Own> own_links_;
   std::vector<Held> held_;
-  std::vector<Eigen::Index> place_, rate_;  ///< per pivot, of its three numbers in y
-  std::vector<Eigen::Index> angle_;         ///< likewise, in theta, or -1
+  PivotLayout at_;
   std::optional<FreeBodies> bodies_;
-  std::vector<double> mass_, damping_, b_, x_;  ///< per pivot four, masses 0 of what is held
+  std::vector<double> b_, x_;  ///< per pivot four
   BodyBlocks<B> rigid_;
   std::optional<ViscousTurning> turning_;
   TurningPack turns_;

@@ -9,6 +9,7 @@ using lanes::ByCosine;
 using lanes::load;
 using lanes::Matrix;
 using lanes::Pack;
+using lanes::store;
 using lanes::Triple;
 
 /// Of a stretch of nodes, the one before and the one after, numbers of matrices side by side: with the hinge
@@ -19,13 +20,6 @@ struct Terms {
   double after[6][kSize], before[6][kSize], mixed[9][kSize];
 };
 
-template <class T>
-TENDRIL_INLINE void store(const T& a, double* to) {
-  if constexpr (lanes::kLanes<T> == 1)
-    *to = a;
-  else
-    *reinterpret_cast<lanes::LoosePack*>(to) = a;
-}
 template <class T>
 TENDRIL_INLINE void store(const Matrix<T>& m, std::size_t at, double (&to)[9][Terms::kSize]) {
   for (std::size_t c = 0; c < 3; ++c) {

@@ -25,6 +25,13 @@ TENDRIL_INLINE T load(const double* from) {
   else
     return *reinterpret_cast<const LoosePack*>(from);
 }
+template <class T>
+TENDRIL_INLINE void store(const T& a, double* to) {
+  if constexpr (kLanes<T> == 1)
+    *to = a;
+  else
+    *reinterpret_cast<LoosePack*>(to) = a;
+}
 /// Every other number.
 template <class T>
 TENDRIL_INLINE T load_apart(const double* from) {
