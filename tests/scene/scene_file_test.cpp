@@ -119,6 +119,15 @@ TEST(SceneReader, AnchorsSlideAlongALineOrAcrossADirection) {
   EXPECT_EQ(file.scene.anchors.back().slide, Anchor::Slide::none);
 }
 
+TEST(SceneReader, AnchorsSwivelAboutAnAxis) {
+  Json scene = Json::parse(full_scene());
+  scene["curve_pairs"][0]["anchors"][0]["swivel"] = {0, 3, 1};
+  const scene::SceneFile file = read(scene);
+  EXPECT_TRUE(file.scene.anchors.front().swivels);
+  EXPECT_EQ(file.scene.anchors.front().swivel_axis, Vec3(0, 3, 1));
+  EXPECT_FALSE(file.scene.anchors.back().swivels);
+}
+
 TEST(SceneReader, AnchorsLetGoAtTheTimeTheySay) {
   Json scene = Json::parse(full_scene());
   scene["curve_pairs"][0]["anchors"][0]["until"] = 0.3;

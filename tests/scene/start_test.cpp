@@ -37,6 +37,15 @@ Energies energies_of(const System& system, const State& state) {
   return system.energies(state, *work);
 }
 
+/// A spin about a swivel's axis is the swivel's own; the tangent, across it, has no part in that.
+TEST(SceneStart, ASpinTurnsASwivelAboutItsAxis) {
+  const SceneFile file = parsed(R"(, "anchors": [{"node": 0, "swivel": [0, 0, -3]}])",
+                                R"(, "start": {"motions": [{"spin": [5, 0, 2], "about": [0, 0, 0]}]})");
+  const State state = scene::start_state(file, scene::make_system(file));
+  EXPECT_EQ(state.y[7 * 11], -2.0);
+  EXPECT_EQ(state.y[7 * 11 + 1], 5.0);
+}
+
 TEST(SceneStart, AVelocityAndASpinAreThoseOfARigidBody) {
   const SceneFile file =
       parsed("", R"(, "start": {"motions": [{"velocity": [0.3, 0, -0.2], "spin": [0, 0, 2]}]})");

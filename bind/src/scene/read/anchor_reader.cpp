@@ -140,6 +140,14 @@ void read_slide(const JsonNode& slide, const std::string& hold, Anchor& out) {
   if (!(out.slide_axis.stableNorm() > 0.0)) axis.refuse("no direction", "a vector that is not zero");
 }
 
+void read_swivel(const JsonNode& axis, const std::string& hold, Anchor& out) {
+  if (hold == "position")
+    axis.refuse("beside a hold of the position alone", "a hold of \"frame\" or \"both\"");
+  out.swivels = true;
+  out.swivel_axis = axis.vec3();
+  if (!(out.swivel_axis.stableNorm() > 0.0)) axis.refuse("no direction", "a vector that is not zero");
+}
+
 }  // namespace
 
 ReadMotion read_motion(const JsonNode& node, const Vec3& rest, const Frame& frame) {
@@ -174,6 +182,7 @@ std::vector<Anchor> read_anchors(const JsonNode& anchor, std::size_t rod_index, 
     Anchor one{rod_index, i, hold != "frame", hold != "position", {}};
     if (anchor.has("until")) one.until = anchor.at("until").number();
     if (anchor.has("slide")) read_slide(anchor.at("slide"), hold, one);
+    if (anchor.has("swivel")) read_swivel(anchor.at("swivel"), hold, one);
     const ReadMotion motion = read_motion(anchor, rod.p[i], frames.frame[i]);
     one.motion = motion.pose;
     one.period = motion.period;

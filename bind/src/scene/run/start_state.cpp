@@ -34,6 +34,15 @@ Vec3 centre_of(const SceneFile& file, const System& system, const State& state,
   return moment / mass;
 }
 
+/// The axis about which a node's spin counts: that of a swivel, else the tangent.
+Vec3 spin_axis(const SceneFile& file, const State& state, std::size_t rod, const NodeRange& nodes,
+               std::size_t i) {
+  for (const Anchor& anchor : file.scene.anchors)
+    if (anchor.swivels && anchor.rod == rod && nodes.first + anchor.node == i)
+      return anchor.swivel_axis.stableNormalized();
+  return state.tangent[i];
+}
+
 /// y = (p 3n | v 3n | theta m | w m | ...): a spin in space turns a node's frame about its tangent by the
 /// spin's part along it.
 void set_moving(const SceneFile& file, const System& system, const StartMotion& motion, State& state) {
@@ -46,7 +55,7 @@ void set_moving(const SceneFile& file, const System& system, const StartMotion& 
       const auto at = static_cast<Eigen::Index>(i);
       const Vec3 p = state.y.segment<3>(3 * at);
       state.y.segment<3>(3 * n + 3 * at) += motion.velocity + motion.spin.cross(p - about);
-      if (m == n) state.y[6 * n + m + at] += motion.spin.dot(state.tangent[i]);
+      if (m == n) state.y[6 * n + m + at] += motion.spin.dot(spin_axis(file, state, r, nodes, i));
     }
   }
 }

@@ -44,6 +44,10 @@ struct Anchor {
   };
   Slide slide = Slide::none;        ///< of a held position alone, else InvalidInput
   Vec3 slide_axis = Vec3::UnitZ();  ///< direction of the line, normal of the plane: finite, not 0
+  /// A held frame turns freely about one axis, as a door on its hinges, with the node's spin inertia; about
+  /// others it is as the pose says. About the tangent that is a shaft in a bearing.
+  bool swivels = false;              ///< of a held frame alone, else InvalidInput
+  Vec3 swivel_axis = Vec3::UnitZ();  ///< at rest; it turns with the pose's frame: finite, not 0
 };
 
 }  // namespace tendril

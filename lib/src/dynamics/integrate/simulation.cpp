@@ -120,6 +120,11 @@ struct Simulation::Implementation {
       state.tangent[i] = frames[i].z;
       state.director[i] = frames[i].y;
     }
+    // Of what a swivel turned by, its node keeps what is about its tangent.
+    const Model& model = model_of(*system);
+    for (const Model::Swivel& swivel : model.swivels)
+      if (model.anchors[swivel.anchor].until <= state.time)
+        state.y[model.spin_begin() + model.twist_index[swivel.node]] *= swivel.axis.z();
     const System* freed = lay_out(state.time);
     if (!freed->rebase(state, *freed->make_workspace()).ok()) return false;
     std::unique_ptr<Controller> next = make_controller(*freed, std::move(state), controller->options());

@@ -195,6 +195,34 @@ void take_held_frames(const Model& model, Kinematics& kin) {
   }
 }
 
+/// The reference frame, carried with its axis to the pose's by the smallest rotation and turned about it by
+/// theta, as a director is about a tangent. False when the axis turned too far for that.
+bool take_swivel(const Model& model, const State& reference, const Eigen::VectorXd& y,
+                 const Model::Swivel& swivel, double w, Kinematics& kin) {
+  const std::size_t i = swivel.node;
+  const AnchorPose& pose = kin.pose[swivel.anchor];
+  // Orthonormal again: rounding would grow from step to step.
+  const Vec3 z = reference.tangent[i].normalized();
+  const Vec3 y_axis = (reference.director[i] - reference.director[i].dot(z) * z).normalized();
+  const Frame from{y_axis.cross(z), y_axis, z};
+  const Vec3 before = swivel.of(from), axis = swivel.of(pose.frame).normalized();
+  const double k = 1.0 + before.dot(axis);
+  if (!(k > kTurnedTooFar)) return false;
+  const double theta = y[model.theta_begin() + model.twist_index[i]];
+  const auto turned = [&](const Vec3& v) {
+    return rotate_about(axis, theta, rotate_smallest(before, axis, v));
+  };
+  const Frame frame{turned(from.x), turned(from.y), turned(from.z)};
+  const Vec3 across = pose.angular_velocity - axis.dot(pose.angular_velocity) * axis;
+  const Vec3 turning = across + w * axis;
+  kin.frame.set(i, frame);
+  kin.spin[i] = turning.dot(frame.z);
+  kin.rate.turning.set(i, turning - kin.spin[i] * frame.z);
+  kin.inverse_bisector[i] = 0.0;
+  kin.rate.connection[i] = w + before.dot(across) / k - kin.spin[i];  // theta' = w + ...
+  return true;
+}
+
 void clear_ends(const Model& model, Kinematics& kin) {
   for (const NodeRange& rod : model.rods) {
     const std::size_t last = rod.first + rod.count - 1;
@@ -233,6 +261,11 @@ void take_spins(const Model& model, const Model::Segment& s, const Eigen::Vector
   std::copy(spin, spin + (s.end - s.first), &kin.spin[s.first]);
 }
 
+void take_swivel_spins(const Model& model, const Eigen::VectorXd& y, Kinematics& kin) {
+  for (std::size_t k = 0; k < model.swivels.size(); ++k)
+    kin.swivel_spin[k] = y[model.spin_begin() + model.twist_index[model.swivels[k].node]];
+}
+
 Evaluation take_frames(const Model& model, const State& reference, const Eigen::VectorXd& y, Motion what,
                        Kinematics& kin) {
   for (const Model::Segment& s : model.segments) {
@@ -251,6 +284,10 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
     if (const Evaluation at = find_bad_tangent(model, reference, s, kin); !at.ok()) return at;
   }
   take_held_frames(model, kin);
+  take_swivel_spins(model, y, kin);
+  for (std::size_t k = 0; k < model.swivels.size(); ++k)
+    if (!take_swivel(model, reference, y, model.swivels[k], kin.swivel_spin[k], kin))
+      return {Outcome::turned_too_far, model.swivels[k].node};
   for (const Model::Attachment& attached : model.attachments)
     take_attachment(attached, what != Motion::positions, kin);
   return {};
@@ -264,6 +301,7 @@ void take_velocities(const Model& model, const Eigen::VectorXd& y, Kinematics& k
   take_apart(y.data() + model.v_begin(), model.nodes, kin.v);
   for (const Model::Segment& s : model.segments)
     if (s.twist) take_spins(model, s, y, kin);
+  take_swivel_spins(model, y, kin);
 }
 
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,

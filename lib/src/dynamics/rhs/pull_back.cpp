@@ -73,6 +73,18 @@ void pass_on_torque(const Model::Attachment& attached, const Kinematics& kin, Gr
   if (!loads.torque.empty()) loads.torque[i].setZero();
 }
 
+/// What turns a swivel about its axis stands for the gradient by its spin, from which the torque of loads is
+/// taken yet.
+void turn_swivels(const Model& model, const Kinematics& kin, Gradient& grad, const LoadColumns& loads) {
+  for (std::size_t k = 0; k < model.swivels.size(); ++k) {
+    const std::size_t i = model.swivels[k].node;
+    const Frame frame = kin.frame[i];
+    const double loaded = loads.torque.empty() ? 0.0 : loads.torque[i].dot(frame.z);
+    grad.swivel[k] = frame.z.cross(Vec3(grad.tangent[i])) + (grad.spin[i] - loaded) * frame.z;
+    grad.spin[i] = grad.swivel[k].dot(model.swivels[k].of(frame)) + loaded;
+  }
+}
+
 void pass_on_force(const Model::Attachment& attached, Pull& pull) {
   if (!attached.reaction) return;
   pull.force.add(attached.parent, pull.force[attached.root]);
@@ -86,6 +98,7 @@ void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, Lo
   assert(grad.made.fits(kin) && (!model.loaded || loads.made.fits(kin)));
   for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
     pass_on_torque(*attached, kin, grad, loads);
+  turn_swivels(model, kin, grad, loads);
   for (const Segment& s : model.segments)
     (s.twist || model.loaded ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
   for (const auto* held : {&model.bending.held, &model.bending.held_hinges})

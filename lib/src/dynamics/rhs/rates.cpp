@@ -95,6 +95,11 @@ double anchor_power(const Model& model, const Kinematics& kin, const Gradient& g
   for (const std::size_t i : model.driven_frames)
     power += grad.tangent[i].dot(kin.t_rate(i)) +
              (grad.spin[i] - (model.loaded ? loads.torque[i].dot(kin.frame.z[i]) : 0.0)) * kin.spin[i];
+  for (std::size_t k = 0; k < model.swivels.size(); ++k) {
+    const Vec3 turning = kin.pose[model.swivels[k].anchor].angular_velocity;
+    const Vec3 axis = model.swivels[k].of(kin.frame[model.swivels[k].node]);
+    power += grad.swivel[k].dot(turning - axis.dot(turning) * axis);
+  }
   for (const std::size_t i : model.driven_positions)
     power -= (pull.force[i] + model.moved_mass[i] * model.gravity).dot(kin.v[i]);
   for (const Model::Slider& slider : model.sliders)
@@ -123,6 +128,10 @@ TENDRIL_LANES double damping_power(const Model& model, const Kinematics& kin) {
   for (const Model::Slider& slider : model.sliders)
     power += model.damping[slider.node] * model.moved_mass[slider.node] *
              (slider.free * Vec3(kin.v[slider.node])).squaredNorm();
+  for (std::size_t k = 0; k < model.swivels.size(); ++k) {
+    const std::size_t node = model.swivels[k].node;
+    power += model.damping[node] * model.inertia[node] * kin.swivel_spin[k] * kin.swivel_spin[k];
+  }
   return -power;
 }
 
@@ -245,6 +254,11 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
     const Eigen::Index k = model.twist_index[s.first];
     finite &=
         turn(model, s, kin, grad, dy.data() + model.theta_begin() + k, dy.data() + model.spin_begin() + k);
+  }
+  for (std::size_t k = 0; k < model.swivels.size(); ++k) {  // damped about the axis, not the tangent
+    const std::size_t node = model.swivels[k].node;
+    dy[model.spin_begin() + model.twist_index[node]] +=
+        model.damping[node] * (kin.spin[node] - kin.swivel_spin[k]);
   }
   if (model.loaded) finite &= add_spin_torques(model, loads, dy);
   if (!model.bodies.empty()) finite &= body_rates(model, y, kin.bodies, loads.on_bodies, dy);

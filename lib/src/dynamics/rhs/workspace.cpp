@@ -10,6 +10,8 @@ System::Workspace::Workspace(const System::Model& model) {
   Gradient& g = gradient;
   k.pose.resize(model.anchors.size());
   k.bodies.resize(model.bodies.size());
+  k.swivel_spin.assign(model.swivels.size(), 0.0);
+  g.swivel.assign(model.swivels.size(), Vec3::Zero());
   loads.on_bodies.resize(model.bodies.size());
   // Columns that a loop walks along side by side get neighbouring ranks.
   std::size_t rank = 0;

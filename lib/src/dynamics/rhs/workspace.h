@@ -22,7 +22,8 @@ struct Kinematics {
   Column length, inverse_length;
   Column inverse_bisector;  ///< of the unit edges' sum; 0 where the frame is held
   Column spin;
-  std::vector<BodyView> bodies;  ///< whole with the positions
+  std::vector<double> swivel_spin;  ///< per swivel, about its axis
+  std::vector<BodyView> bodies;     ///< whole with the positions
 
   struct Rates {
     Columns3 e_rate;
@@ -58,10 +59,11 @@ struct Gradient {
   Columns3 before, after;  ///< by the edges at a held frame; elsewhere they stay 0
   Columns3 tangent;        ///< across the tangent
   Column spin, length;
-  Columns3 twist_tangent;  ///< per edge: what its twist spring gives either tangent
-  Column twist_torque;     ///< per edge
-  Columns3 given;          ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
-  Column energy, heat;     ///< per edge or node, of one kind of springs at a time
+  Columns3 twist_tangent;    ///< per edge: what its twist spring gives either tangent
+  Column twist_torque;       ///< per edge
+  std::vector<Vec3> swivel;  ///< per swivel, as a torque on its frame, minus it; loads count
+  Columns3 given;            ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
+  Column energy, heat;       ///< per edge or node, of one kind of springs at a time
   Made made;
 };
 

@@ -66,6 +66,17 @@ Mat3 free_of(const Anchor& anchor, const std::string& place) {
   return anchor.slide == Anchor::Slide::line ? along : Mat3(Mat3::Identity() - along);
 }
 
+/// In the node's frame.
+Vec3 swivel_axis(const Anchor& anchor, const Frame& rest, const std::string& place) {
+  if (!anchor.holds_frame)
+    throw InvalidInput(place, "of a frame that is not held", "holds_frame, or no swivel");
+  const double length = anchor.swivel_axis.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw InvalidInput(place, "no direction", "a swivel_axis that is finite and not zero");
+  const Vec3 axis = anchor.swivel_axis / length;
+  return Vec3(axis.dot(rest.x), axis.dot(rest.y), axis.dot(rest.z)).normalized();
+}
+
 constexpr std::size_t kModelRank = 60;  // of the first column, behind those of a workspace
 
 }  // namespace
@@ -152,6 +163,9 @@ void Model::add_anchors() {
     held_frame[node] = anchor.holds_frame;
     if (anchor.slide != Anchor::Slide::none)
       sliders.push_back({node, anchors.size(), free_of(anchor, member("anchors", a, "slide"))});
+    if (anchor.swivels)
+      swivels.push_back(
+          {node, anchors.size(), swivel_axis(anchor, rest_frame[node], member("anchors", a, "swivels"))});
     anchors.push_back(anchor);
   }
 }
@@ -241,6 +255,7 @@ std::string Model::twist_source(std::size_t r) const {
   int frames_held = 0;
   for (const Anchor& anchor : scene.anchors) {
     if (anchor.rod != r || !anchor.holds_frame) continue;
+    if (anchor.swivels) return "a swivel";
     if (anchor.motion) return "a moving frame";
     ++frames_held;
   }
@@ -278,18 +293,18 @@ void Model::choose_forces() {
   for (const Attachment& attached : attachments) passes_on[attached.root] = attached.reaction;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (!holds_position(i)) inverse_mass[i] = 1.0 / moved_mass[i];
-    if (has_twist(i) && !holds_frame(i)) {
-      free_inertia[i] = inertia[i];
-      inverse_inertia[i] = 1.0 / inertia[i];
-    }
+    if (has_twist(i) && !holds_frame(i)) free_inertia[i] = inertia[i];
+    if (turns(i)) inverse_inertia[i] = 1.0 / inertia[i];
     if (holds_position(i)) held_positions.push_back(i);
     if (holds_position(i) && !passes_on[i]) driven_positions.push_back(i);
-    if (holds_frame(i) && !passes_on[i]) driven_frames.push_back(i);
+    if (holds_frame(i) && !passes_on[i] && !turns(i)) driven_frames.push_back(i);
     if (inverse_mass[i] > 0.0) damped_mass[i] = damping[i] * moved_mass[i];
     if (inverse_inertia[i] > 0.0) damped_inertia[i] = damping[i] * inertia[i];
     damped = damped || damping[i] > 0.0;
   }
-  for (const Slider& slider : sliders) damped_mass[slider.node] = 0.0;  // by what they may do alone
+  // Those by what they may do alone.
+  for (const Slider& slider : sliders) damped_mass[slider.node] = 0.0;
+  for (const Swivel& swivel : swivels) damped_inertia[swivel.node] = 0.0;
   for (std::size_t f = 0; f < scene.forces.size(); ++f) {
     const auto& force = scene.forces[f];
     // What accelerates every free node alike does so whatever merged with it: no loads need to be summed.

@@ -51,6 +51,22 @@ struct System::Model {
     Vec3 carried(const AnchorPose& pose) const { return pose.velocity - free * pose.velocity; }
   };
   std::vector<Slider> sliders;
+  /// A node with a held frame that turns freely about an axis, by theta and w.
+  struct Swivel {
+    std::size_t node, anchor;
+    Vec3 axis;  ///< unit, in the frame's l, m, t
+    Vec3 of(const Frame& frame) const { return axis.x() * frame.x + axis.y() * frame.y + axis.z() * frame.z; }
+  };
+  std::vector<Swivel> swivels;
+  const Swivel* swivel_of(std::size_t node) const {
+    const auto at =
+        std::find_if(swivels.begin(), swivels.end(), [&](const Swivel& s) { return s.node == node; });
+    return at == swivels.end() ? nullptr : &*at;
+  }
+  bool swivels_in(const NodeRange& rod) const {
+    return std::any_of(swivels.begin(), swivels.end(),
+                       [&](const Swivel& s) { return s.node - rod.first < rod.count; });
+  }
   const Slider* slider_of(std::size_t node) const {
     const auto at =
         std::find_if(sliders.begin(), sliders.end(), [&](const Slider& s) { return s.node == node; });
@@ -130,6 +146,10 @@ struct System::Model {
   bool has_twist(std::size_t node) const { return twist_index[node] >= 0; }
   bool holds_position(std::size_t node) const { return held_position[node] != 0; }
   bool holds_frame(std::size_t node) const { return held_frame[node] != 0; }
+  /// Whether its angle and spin are free.
+  bool turns(std::size_t node) const {
+    return has_twist(node) && (!holds_frame(node) || swivel_of(node) != nullptr);
+  }
   bool has_before(std::size_t node) const { return begins[node] == 0; }
   bool has_after(std::size_t node) const { return ends[node] == 0; }
   const Attachment* attachment_of(std::size_t rod) const {

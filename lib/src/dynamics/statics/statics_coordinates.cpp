@@ -107,7 +107,7 @@ void StaticCoordinates::number() {
       for (int axis = 0; axis < free && !holds_position(i); ++axis)
         add(i, axis, 3 * static_cast<Eigen::Index>(i) + axis);
       const int twist = model_of(system_).twist_index[i];
-      if (twist < 0 || holds_frame(i)) continue;
+      if (!model_of(system_).turns(i)) continue;
       turn_in_y_[i] = 2 * positions + twist;
       add(i, 3, positions + twist);
     }

@@ -109,7 +109,10 @@ void StaticLoads::pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q
   for (Eigen::Index k = 0; k < q.size(); ++k) {
     const std::size_t i = coordinates_.node(k);
     const int axis = coordinates_.axis(k);
-    q[k] = axis == 3 ? torque_[i].dot(frames[i].z) : coordinates_.along(i, axis, force_[i]);
+    const Model::Swivel* swivel = axis == 3 ? model_of(system_).swivel_of(i) : nullptr;
+    q[k] = swivel      ? torque_[i].dot(swivel->of(frames[i]))
+           : axis == 3 ? torque_[i].dot(frames[i].z)
+                       : coordinates_.along(i, axis, force_[i]);
   }
 }
 

@@ -150,7 +150,7 @@ void StaticProblem::add_turning(const StaticState& at, std::vector<Eigen::Triple
   for (const NodeRange& rod : system_.rods())
     for (std::size_t i = rod.first; i < rod.first + rod.count; ++i) {
       const Eigen::Index turn = coordinates_.row(i, 3);
-      if (turn < 0) continue;
+      if (turn < 0 || coordinates_.holds_frame(i)) continue;  // a swivel's axis does not follow the edges
       const double g = at.gradient[coordinates_.in_gradient(turn)];
       const std::size_t from = i > rod.first ? i - 1 : i;
       const std::size_t to = i + 1 < rod.first + rod.count ? i + 1 : i;
@@ -243,6 +243,8 @@ std::vector<Vec3> StaticProblem::elastic_torques(const StaticState& at) {
     torques[i] = -t.cross(work_->gradient.tangent[i]);
     if (model.has_twist(i)) torques[i] -= work_->gradient.spin[i] * t;
   }
+  for (std::size_t k = 0; k < model.swivels.size(); ++k)
+    torques[model.swivels[k].node] = -work_->gradient.swivel[k];
   return torques;
 }
 

@@ -82,7 +82,7 @@ struct Rodas::Implementation {
     for (std::size_t i = 0; i < model.nodes; ++i)
       if (model.has_twist(i))
         rate[model.theta_begin() + model.twist_index[i]] =
-            model.holds_frame(i) ? 0.0 : state.y[model.spin_begin() + model.twist_index[i]];
+            model.turns(i) ? state.y[model.spin_begin() + model.twist_index[i]] : 0.0;
     return true;
   }
 

@@ -198,7 +198,7 @@ class BlockSolver : public StiffSolver {
       }
       at_.angle.push_back(B == 4 ? model_.twist_index[i] : -1);
       for (std::size_t c = 0; c < 3; ++c) set(k, c, !model_.holds_position(i), model_.moved_mass[i]);
-      if (B == 4) set(k, 3, model_.has_twist(i) && !model_.holds_frame(i), model_.inertia[i]);
+      if (B == 4) set(k, 3, model_.turns(i), model_.inertia[i]);
     }
   }
   /// The inertia of a turn is no number an axis: see BodyBlocks.

@@ -182,7 +182,7 @@ void edge_stiffness(const Model& model, const NodeRange& rod, std::size_t i, con
   const Neighbourhood n(model, rod, i);
   SpringStiffness springs = spring_stiffness(model, i, kin, grad, viscous);
   const Vec3 g_edge = gradient_by_edge(i, kin, grad, springs);
-  if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  by_frames(model, n.frame_of, i, kin, springs);
   ByEdges edges = by_edges(n, kin, springs);
   add_tangent_curvature(model, n, kin, grad, springs, edges);
   to_nodes(n, kin, edges, springs, to);
@@ -195,7 +195,7 @@ void edge_resistance(const Model& model, const NodeRange& rod, std::size_t i, co
                      EdgeStiffness& to) {
   const Neighbourhood n(model, rod, i);
   SpringStiffness springs = spring_resistance(model, i, kin);
-  if (n.attached) by_parent_frame(kin.frame.z[n.frame_of[0]], kin.frame.z[i], springs);
+  by_frames(model, n.frame_of, i, kin, springs);
   to_nodes(n, kin, by_edges(n, kin, springs), springs, to);
   put(n, n.own, n.own, model.stretch[i] * kin.e[i] * kin.e[i].transpose(), to);
   place(model, n, i, to);
@@ -266,6 +266,10 @@ void edge_slopes(const Model& model, const NodeRange& rod, std::size_t i, const 
       const Vec3 g = s.t[side] - s.theta[side] * spin[side];
       share[side] = kin.inverse_bisector[n.frame_of[side]] * (g - t.dot(g) * t);
       to.angle[q][side] = s.theta[side];
+      if (const Model::Swivel* swivel = model.swivel_of(n.frame_of[side])) {
+        const Vec3 axis = swivel->of(kin.frame[n.frame_of[side]]);
+        to.angle[q][side] = s.t[side].dot(axis.cross(t)) + s.theta[side] * axis.dot(t);
+      }
     }
     for (Vec3& g : to.node[q]) g.setZero();
     for (std::size_t x = 0; x < 4; ++x) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "dynamics/rhs/workspace.h"
 
 namespace tendril {
@@ -29,10 +31,11 @@ SpringStiffness spring_stiffness(const Model& model, std::size_t i, const Kinema
 /// sum k grad q grad q^T over the two deviations at either end and the twist of edge i.
 SpringStiffness spring_resistance(const Model& model, std::size_t i, const Kinematics& kin);
 
-/// Turns the derivatives by the first node's own (t_0, theta_0) into those by (t, theta) of a frame it is
-/// fixed to. With d = t' - t that frame turns by phi = t x d + theta t + theta d / 2, which takes t_0 by
-/// phi x t_0 + phi x (phi x t_0) / 2 and theta_0 by phi . t_0, all to second order.
-void by_parent_frame(const Vec3& t, const Vec3& t0, SpringStiffness& s);
+/// Turns the derivatives by the nodes' own tangents and angles into those by what moves their frames: the
+/// frame of another node that the first is fixed to, the turn of a swivel in the place of its angle.
+/// \param frame_of  the nodes whose frames those of edge i are, or are fixed to
+void by_frames(const Model& model, const std::array<std::size_t, 2>& frame_of, std::size_t i,
+               const Kinematics& kin, SpringStiffness& s);
 
 Mat3 cross_matrix(const Vec3& v);
 

@@ -105,13 +105,14 @@ void visit_hubs(const Model& model, const State& reference, const Kinematics& ki
 }
 
 /// Goes over the edges of a rod with twist: calls one(i) for one that begins a child rod, and for those of a
-/// rod that has less than a pack; pack(i, k) for the pack that begins with i, of which the first k have been.
+/// rod that has less than a pack or a swivel; pack(i, k) for the pack that begins with i, of which the first
+/// k have been.
 template <class One, class InPack>
 void for_packs(const Model& model, const NodeRange& rod, const One& one, const InPack& pack) {
   std::size_t i = rod.first;
   const std::size_t end = rod.first + rod.count - 1;
   if (i < end && model.carrier[i] != i) one(i++);
-  if (end < i + EdgePack::kEdges)
+  if (end < i + EdgePack::kEdges || model.swivels_in(rod))
     for (; i < end; ++i) one(i);
   for (; i < end; i += EdgePack::kEdges) {
     const std::size_t first = std::min(i, end - EdgePack::kEdges);

@@ -101,6 +101,8 @@ Evaluation System::rebase(State& state, Workspace& work) const {
   for (const Model::Slider& slider : model.sliders) put(slider.node);
   for (const Model::Segment& segment : model.segments)
     if (segment.twist) rebase_twisted(model, segment, kin, state);
+  for (std::size_t k = 0; k < model.swivels.size(); ++k)
+    state.y[model.spin_begin() + model.twist_index[model.swivels[k].node]] = kin.swivel_spin[k];
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const NodeRange& rod = model.rods[r];
     // No edge begins at a rod's last node.

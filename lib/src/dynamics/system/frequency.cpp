@@ -27,7 +27,7 @@ struct MassMetric {
           model.bodies[static_cast<std::size_t>(i / 3)].mass);
     turns_from = position.size();
     for (std::size_t i = 0; i < model.nodes; ++i) {
-      if (!model.has_twist(i) || model.holds_frame(i)) continue;
+      if (!model.turns(i)) continue;
       add(model.theta_begin() + model.twist_index[i], model.spin_begin() + model.twist_index[i],
           model.inertia[i]);
     }

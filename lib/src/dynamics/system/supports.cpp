@@ -38,6 +38,16 @@ Vec3 torque_on(const Model& model, const Anchor& anchor, std::size_t i, double t
   return turned + tangent.cross(work.gradient.tangent[i]) + along * tangent;
 }
 
+/// What springs, loads and the axis's own turning ask for across it.
+Vec3 torque_on_swivel(const Model& model, std::size_t k, const System::Workspace& work) {
+  const Model::Swivel& swivel = model.swivels[k];
+  const Kinematics& kin = work.kinematics;
+  const Vec3 axis = swivel.of(kin.frame[swivel.node]);
+  const Vec3 torque = work.gradient.swivel[k];
+  const double momentum = model.inertia[swivel.node] * kin.swivel_spin[k];
+  return torque - torque.dot(axis) * axis + momentum * kin.pose[swivel.anchor].angular_velocity.cross(axis);
+}
+
 }  // namespace
 
 std::vector<Support> supports_of(const System& system, const State& state) {
@@ -56,6 +66,9 @@ std::vector<Support> supports_of(const System& system, const State& state) {
     if (anchor.holds_position) support.force = force_on(model, anchor, i, state.time, work->pull);
     if (const Model::Slider* slider = model.slider_of(i)) support.force -= slider->free * support.force;
     if (anchor.holds_frame) support.torque = torque_on(model, anchor, i, state.time, *work);
+    if (const Model::Swivel* swivel = model.swivel_of(i))
+      support.torque =
+          torque_on_swivel(model, static_cast<std::size_t>(swivel - model.swivels.data()), *work);
   }
   return out;
 }

@@ -102,6 +102,10 @@ Energies System::energies(const State& state, Workspace& work) const {
   for (const Model::Slider& slider : model.sliders)
     result.kinetic -=
         0.5 * model.moved_mass[slider.node] * slider.carried(kin.pose[slider.anchor]).squaredNorm();
+  for (const Model::Swivel& swivel : model.swivels) {
+    const double w = state.y[model.spin_begin() + model.twist_index[swivel.node]];
+    result.kinetic += 0.5 * model.inertia[swivel.node] * w * w;
+  }
   add_body_energies(model, kin.bodies, result);
   if (!model.loaded) return result;
   StateView seen = view(model, state.time, kin, loads);
