@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   }
   return run_bench(argc, argv, false, std::move(out),
                    {{"rhs", "right_hand_side", right_hand_side},
+                    {"wind", "wind", trees_in_wind},
                     {"growth", "growth", growth},
                     {"plant", "plant", plant_in_real_time},
                     {"mujoco", "mujoco", mujoco_chain},

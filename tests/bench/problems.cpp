@@ -31,6 +31,16 @@ Problem at_rest(std::string name, Scene scene, double length) {
   return {std::move(name), std::move(system), std::move(start), length, 1.0};
 }
 
+/// Off the start by some thousandths.
+void stir(Problem& problem) {
+  test::Random random(7);
+  const auto n = static_cast<Eigen::Index>(problem.system.node_count());
+  const auto m = static_cast<Eigen::Index>(problem.system.twist_count());
+  for (Eigen::Index i = 0; i < 6 * n + 2 * m; ++i) problem.start.y[i] += random.uniform(-1e-3, 1e-3);
+  const auto work = problem.system.make_workspace();
+  if (!problem.system.rebase(problem.start, *work).ok()) throw std::runtime_error("stirred too much");
+}
+
 std::string name_of(const Cantilever& what) {
   char name[96];
   std::snprintf(name, sizeof name, "N %d, E %.0e", what.nodes, what.young);
@@ -74,12 +84,7 @@ Problem stirred_rods(int rods, int nodes, bool full) {
   }
   if (full) scene.twist = Scene::Twist::everywhere;
   Problem out = at_rest(full ? "full model" : "without twist", std::move(scene), length);
-  test::Random random(7);
-  const auto n = static_cast<Eigen::Index>(out.system.node_count());
-  const auto m = static_cast<Eigen::Index>(out.system.twist_count());
-  for (Eigen::Index i = 0; i < 6 * n + 2 * m; ++i) out.start.y[i] += random.uniform(-1e-3, 1e-3);
-  const auto work = out.system.make_workspace();
-  if (!out.system.rebase(out.start, *work).ok()) throw std::runtime_error("stirred too much");
+  stir(out);
   return out;
 }
 
@@ -92,7 +97,9 @@ Problem long_chain(int nodes) {
   return at_rest("chain of " + std::to_string(nodes), std::move(scene), length);
 }
 
-Problem plant(const Plant& what) {
+namespace {
+
+Scene tree(const Plant& what) {
   Scene scene;
   const double height = 0.025 * (what.stem_nodes - 1);
   scene.rods.push_back(rod_between(Vec3::Zero(), height * Vec3::UnitZ(), what.stem_nodes, Vec3::UnitX(),
@@ -109,7 +116,26 @@ Problem plant(const Plant& what) {
     scene.joints.push_back({.parent = 0, .node = node, .child = scene.rods.size() - 1});
   }
   add_gravity(scene);
-  return at_rest("stem and " + std::to_string(what.leaves) + " leaves", std::move(scene), height);
+  return scene;
+}
+
+std::string leaves_of(const Plant& what) {
+  return "stem and " + std::to_string(what.leaves) + " leaves";
+}
+
+}  // namespace
+
+Problem plant(const Plant& what) {
+  return at_rest(leaves_of(what), tree(what), 0.025 * (what.stem_nodes - 1));
+}
+
+Problem swaying(const Plant& what, bool wind) {
+  Scene scene = tree(what);
+  for (Rod& rod : scene.rods) rod.viscosity = 1e-4;
+  if (wind) scene.forces.push_back(std::make_shared<Wind>(WindOptions{.mean = Vec3(2, 1, 0), .gust = 0.5}));
+  Problem out = at_rest(leaves_of(what), std::move(scene), 0.025 * (what.stem_nodes - 1));
+  stir(out);
+  return out;
 }
 
 }  // namespace tendril::bench

@@ -41,4 +41,7 @@ struct Plant {
 };
 Problem plant(const Plant& what);
 
+/// That tree bent and stirred, its springs viscous, in gusty wind or in none.
+Problem swaying(const Plant& what, bool wind);
+
 }  // namespace tendril::bench

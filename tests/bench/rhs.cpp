@@ -52,4 +52,23 @@ OrderedJson right_hand_side(const Settings& settings) {
   return out;
 }
 
+/// With and without wind: what the wind takes is the difference.
+OrderedJson trees_in_wind(const Settings& settings) {
+  heading(
+      "Trees in wind",
+      "System::derivative of viscous trees that are bent, ns a node; target 40, and the wind at most what is "
+      "left without it");
+  Table table({"tree", "ns/node", "target", "without wind", "the wind"});
+  OrderedJson out = OrderedJson::array();
+  for (const Plant& what : {Plant{10, 41, 1e6}, {100, 101, 1e6}, {200, 41, 1e8}}) {
+    const Problem problem = swaying(what, true);
+    const double with = derivative_ns(problem, settings.quick);
+    const double without = derivative_ns(swaying(what, false), settings.quick);
+    table.row({problem.name, text("%.1f", with), "40", text("%.1f", without), text("%.1f", with - without)});
+    out.push_back({{"tree", problem.name}, {"ns_per_node", with}, {"without_wind", without}});
+  }
+  table.print();
+  return out;
+}
+
 }  // namespace tendril::bench

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12), builds the bench and runs it on one thread; some minutes. The exit code is the
 # bench's: 1 when a result is wrong, never for being slow.
-#   tests/bench/run.sh [--quick] [--json FILE] [--only rhs|growth|plant|mujoco|stiff]
+#   tests/bench/run.sh [--quick] [--json FILE] [--only rhs|wind|growth|plant|mujoco|stiff]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . .cmake/packages.sh

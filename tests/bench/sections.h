@@ -10,6 +10,8 @@ namespace tendril::bench {
 /// The machine's limits and the cost of the equations per node.
 OrderedJson right_hand_side(const Settings& settings);
 
+/// The same of trees, with and without wind.
+OrderedJson trees_in_wind(const Settings& settings);
 /// One second of the clamped rod to 1e-3 of its length, by every method: stiffness against number of nodes,
 /// and damping and mass ratios.
 OrderedJson stiff_rods(Settings& settings);
