@@ -26,7 +26,7 @@ constexpr long kDoubt = 16;
 // Accepted implicit steps between looks at the choice, doubled while far from a change.
 constexpr long kImplicitInterval = 16;
 constexpr long kLongestInterval = 256;
-// Of explicit steps tried between two looks, those in vain that tell of trouble at the cap; and a step near it.
+// Of explicit steps between two looks, those in vain that tell of trouble at the cap; and a step near it.
 constexpr double kInVain = 0.05, kNearCap = 0.25;
 constexpr long kLongestWait = 64;  // looks between two trials
 

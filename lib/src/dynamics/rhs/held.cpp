@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dynamics/vector/lanes.h"
 #include "kinematics.h"
 
 namespace tendril {
@@ -129,7 +130,7 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
 
 double twist_strain(const Model& model, const State& reference, std::size_t i, const Kinematics& kin) {
   const double raw = twist_angle(kin.frame[i], kin.frame[i + 1]);
-  return reference.twist[i] + std::remainder(raw - reference.twist[i], 2 * M_PI) - model.rest_twist[i];
+  return reference.twist[i] + lanes::less_turns(raw - reference.twist[i]) - model.rest_twist[i];
 }
 
 double give_way_at_hubs(const Model& model, const State& reference, bool viscous, const Kinematics& kin,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "dynamics/vector/drag.h"
 #include "dynamics/vector/waves.h"
 
 namespace tendril {
@@ -135,7 +136,7 @@ class Gusts {
 /// \param each  takes first nodes of a block's edges and the delays of their middles
 template <class Each>
 void in_blocks(const StateView& state, const Gusts& gusts, Each&& each) {
-  constexpr std::size_t kBlock = 128;
+  constexpr std::size_t kBlock = ExposedEdges::kMost;
   std::array<std::size_t, kBlock> edges;
   std::array<double, kBlock> delay;
   std::size_t count = 0;
@@ -181,8 +182,20 @@ Mat3 Wind::velocity_gradient(const Vec3& x, double t) const {
 
 namespace {
 
-/// An edge in the air: its unit vector and length, the flow across and along it, and what makes the drag of
-/// half of it.
+void expose(const StateView& state, std::size_t i, std::size_t k, ExposedEdges& to) {
+  const Vec3 edge = state.p[i + 1] - state.p[i];
+  const Vec3 v = 0.5 * (state.v[i] + state.v[i + 1]);
+  to.x[k] = edge.x();
+  to.y[k] = edge.y();
+  to.z[k] = edge.z();
+  to.vx[k] = v.x();
+  to.vy[k] = v.y();
+  to.vz[k] = v.z();
+  to.width[k] = state.width[i];
+}
+
+/// An edge in the air, as derivatives need it: its unit vector and length, the flow across and along it, and
+/// what makes the drag of half of it.
 struct Exposed {
   Exposed(const Vec3& edge, const Vec3& flow, double per_length, const WindOptions& options)
       : length(edge.norm()),
@@ -232,15 +245,17 @@ Exposed exposed_at(const StateView& state, std::size_t i, const Vec3& air, const
 
 void Wind::add(const StateView& state, const Loads& loads) const {
   const Gusts gusts(options_, waves_, state.time);
-  std::vector<double> factor;
+  const double half = -0.25 * options_.air_density;
+  const DragPerLength by{options_.mean, half * options_.normal_drag, half * options_.tangential_drag};
+  ExposedEdges exposed;
   in_blocks(state, gusts, [&](std::span<const std::size_t> edges, std::span<const double> delay) {
-    factor.resize(edges.size());
-    gusts.find(delay, factor);
+    gusts.find(delay, std::span(exposed.air).first(edges.size()));
+    for (std::size_t k = 0; k < edges.size(); ++k) expose(state, edges[k], k, exposed);
+    drag(by, edges.size(), exposed);
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      const Exposed exposed = exposed_at(state, edges[k], factor[k] * options_.mean, options_);
-      const Vec3 half = exposed.drag();
-      loads.force[edges[k]] += half;
-      loads.force[edges[k] + 1] += half;
+      const Vec3 force(exposed.x[k], exposed.y[k], exposed.z[k]);
+      loads.force[edges[k]] += force;
+      loads.force[edges[k] + 1] += force;
     }
   });
 }

@@ -53,7 +53,10 @@ DeviationRates deviation_rates(const Frame& f, const EdgeAngles& at, const Vec3&
 
 double twist_angle(const Frame& before, const Frame& after) {
   const Vec3 carried = rotate_smallest(before.z, after.z, before.y);
-  return std::atan2(carried.cross(after.y).dot(after.z), carried.dot(after.y));
+  const double sine = carried.cross(after.y).dot(after.z);
+  const double cosine = carried.dot(after.y);
+  const bool near = cosine > 0.0 && sine * sine <= lanes::kNearSquare;
+  return near ? sine * lanes::asin_ratio(sine * sine) : std::atan2(sine, cosine);
 }
 
 void Model::flatten_rest_angles(const NodeRange& range) {
