@@ -340,7 +340,7 @@ TEST(Sliding, IsRefusedWithoutAPositionToHoldOrADirection) {
   scene.anchors[0].holds_position = false;
   EXPECT_EQ(test::place_of_refusal(scene), "anchors[0].slide");
   scene.anchors[0].holds_position = true;
-  for (const Vec3& axis : {Vec3(0, 0, 0), Vec3(1, NAN, 0), Vec3(HUGE_VAL, 0, 0)}) {
+  for (const Vec3& axis : {Vec3(0, 0, 0), Vec3(1, std::nan(""), 0), Vec3(HUGE_VAL, 0, 0)}) {
     scene.anchors[0].slide_axis = axis;
     EXPECT_EQ(test::place_of_refusal(scene), "anchors[0].slide");
   }

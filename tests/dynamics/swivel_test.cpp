@@ -336,7 +336,7 @@ TEST(Swivel, IsRefusedWithoutAFrameToHoldOrADirection) {
   scene.anchors[0].holds_frame = false;
   EXPECT_EQ(test::place_of_refusal(scene), "anchors[0].swivels");
   scene.anchors[0].holds_frame = true;
-  for (const Vec3& axis : {Vec3(0, 0, 0), Vec3(1, NAN, 0), Vec3(HUGE_VAL, 0, 0)}) {
+  for (const Vec3& axis : {Vec3(0, 0, 0), Vec3(1, std::nan(""), 0), Vec3(HUGE_VAL, 0, 0)}) {
     scene.anchors[0].swivel_axis = axis;
     EXPECT_EQ(test::place_of_refusal(scene), "anchors[0].swivels");
   }
