@@ -115,11 +115,17 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
   Vec3 g_tangent = Vec3::Zero();
   double energy = 0.0;
   const auto spring = [&](const Vec3& e) {
-    const double sine = e.cross(t).norm();
-    const double angle = std::atan2(sine, e.dot(t));
-    const double g = sine > 1e-12 ? stiffness * angle / sine : stiffness;
+    const double square = e.cross(t).squaredNorm();
+    const double sine = std::sqrt(square);
+    const double cosine = e.dot(t);
+    const bool near = cosine > 0.0 && square <= lanes::kWideSquare;
+    // Straight against the frame an edge may stand where there is no spring.
+    const double ratio = near         ? lanes::wide_asin_ratio(square)
+                         : sine > 0.0 ? std::atan2(sine, cosine) / sine
+                                      : 1.0;
+    const double g = stiffness * ratio;
     g_tangent -= g * e;
-    energy += 0.5 * stiffness * angle * angle;
+    energy += 0.5 * stiffness * ratio * ratio * square;
     return Vec3(-g * t);
   };
   if (model.has_before(node)) grad.before.set(node, spring(kin.e[node - 1]));

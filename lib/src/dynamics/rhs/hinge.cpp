@@ -18,8 +18,9 @@ using lanes::Writer;
 /// Without a twist state bending is isotropic and straight at rest: both springs together are K phi^2, phi
 /// the angle that either edge makes with the tangent between them, half of that between the unit edges a and
 /// b. With d = (b - a) / 2, of length sin(phi), the gradient by d is 2 K phi / (sin(phi) cos(phi)) d. False
-/// when two edges fold back (or are not near and were taken for it). Beside it the stretch of the edges.
-template <bool Energy, bool Near>
+/// when two edges fold back (or turn further than was taken for granted). Beside it the stretch of the edges.
+enum class Reach { near, wide, any };
+template <bool Energy, Reach R>
 TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size_t end, const Kinematics& kin,
                                 Gradient& grad) {
   const Reader e(kin.e);
@@ -37,9 +38,13 @@ TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size
     const double sine2 = lanes::dot(d, d);
     double slope;
     bool good;
-    if constexpr (Near) {
+    if constexpr (R == Reach::near) {
       slope = lanes::asin_slope(sine2);
       good = sine2 <= lanes::kNearSquare;
+    } else if constexpr (R == Reach::wide) {
+      good = sine2 <= lanes::kWideSquare;
+      const double w = good ? sine2 : 0.0;
+      slope = lanes::wide_asin_ratio(w) / std::sqrt(1.0 - w);
     } else {
       const V3 sum = a + b;
       const double sine = std::sqrt(sine2);
@@ -60,15 +65,26 @@ TENDRIL_INLINE bool hinge_nodes(const Model& model, std::size_t first, std::size
 
 TENDRIL_LANES bool hinge_near(const Model& model, const State&, std::size_t first, std::size_t end,
                               const Kinematics& kin, Gradient& grad) {
-  return hinge_nodes<false, true>(model, first, end, kin, grad);
+  return hinge_nodes<false, Reach::near>(model, first, end, kin, grad);
 }
-TENDRIL_LANES bool hinge_far(const Model& model, const State&, std::size_t first, std::size_t end,
+TENDRIL_LANES bool hinge_wide(const Model& model, const State&, std::size_t first, std::size_t end,
+                              const Kinematics& kin, Gradient& grad) {
+  return hinge_nodes<false, Reach::wide>(model, first, end, kin, grad);
+}
+TENDRIL_LANES bool hinge_any(const Model& model, const State&, std::size_t first, std::size_t end,
                              const Kinematics& kin, Gradient& grad) {
-  return hinge_nodes<false, false>(model, first, end, kin, grad);
+  return hinge_nodes<false, Reach::any>(model, first, end, kin, grad);
 }
 TENDRIL_LANES bool hinge_with_energy(const Model& model, const State&, std::size_t first, std::size_t end,
                                      const Kinematics& kin, Gradient& grad) {
-  return hinge_nodes<true, false>(model, first, end, kin, grad);
+  return hinge_nodes<true, Reach::any>(model, first, end, kin, grad);
+}
+
+/// Up to 60 degrees between two edges a series does, without an arc tangent.
+bool hinge_far(const Model& model, const State& reference, std::size_t first, std::size_t end,
+               const Kinematics& kin, Gradient& grad) {
+  return hinge_wide(model, reference, first, end, kin, grad) ||
+         hinge_any(model, reference, first, end, kin, grad);
 }
 
 bool never(const Model&, const State&, std::size_t, std::size_t, const Kinematics&, Gradient&) {
