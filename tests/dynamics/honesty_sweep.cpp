@@ -5,9 +5,11 @@
 ///
 /// Chains of 2 to 10 edges and trees of three rods; hinged, clamped, free and spun, or let go on the way; E
 /// from 1e4 to 1e12; undamped, damped or viscous; 0.1 to 100 s, as far as the effort of a reference goes. A
-/// reference is RODAS at a thousandth of the tolerance; Runge-Kutta 4 at steps of one radian of the
-/// fastest motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not
-/// count.
+/// reference is RODAS at a thousandth of the tolerance; Runge-Kutta 4 at steps of one radian of the fastest
+/// motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not count.
+///
+/// Fails where one is off by more than 100 tolerances; of a hundred scenes and more also where more than one
+/// in a hundred is off by 10, or more than ten are refused.
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
@@ -216,7 +218,10 @@ int sweep(const Options& options) {
   std::printf("  beyond 100            %5.1f %%\n", share(counts.beyond100));
   std::printf("  refused               %5.1f %%\n", share(counts.refused));
   for (const auto& [reason, count] : counts.reasons) std::printf("    %s %d\n", reason.c_str(), count);
-  return counts.beyond100 == 0 ? 0 : 1;
+  // Of a few scenes one is many per cent.
+  const bool enough = counts.certified >= 100;
+  const bool rarely = share(counts.beyond10) <= 1.0 && share(counts.refused) <= 10.0;
+  return counts.beyond100 == 0 && (!enough || rarely) ? 0 : 1;
 }
 
 }  // namespace
