@@ -43,8 +43,9 @@ TEST_F(Evaluated, PassesInOrder) {
   differentiate();
   pull();
   Eigen::VectorXd dy;
-  EXPECT_TRUE(rates(model_, state_, 0.0, state_.y, true, dy, work_).ok());
-  EXPECT_TRUE(rates(model_, state_, 0.0, state_.y, false, dy, work_).ok());
+  EXPECT_TRUE(rates(model_, state_, 0.0, state_.y, dy, work_).ok());
+  double power = 0.0;
+  EXPECT_TRUE(power_of_loads(model_, state_, 0.0, state_.y, power, work_).ok());
 }
 
 TEST_F(Evaluated, NotesWhatFitsTheKinematics) {

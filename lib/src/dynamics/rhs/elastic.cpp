@@ -328,9 +328,12 @@ double resist_stretch(const Model& model, const Segment& segment, const Kinemati
 /// The springs at held frames, the last to be added to the gradient.
 Evaluation bend_at_held_nodes(const Model& model, const State& reference, bool viscous, const Kinematics& kin,
                               Gradient& grad, double& energy, double& heat) {
-  for (const std::size_t node : model.bending.held) {
+  for (std::size_t k = 0; k < model.bending.held.size(); ++k) {
+    const std::size_t node = model.bending.held[k];
     if (past_half_turn(model, reference, node, kin)) return {Evaluation::Outcome::fold_back, node};
-    energy += bend_at_held_frame(model, node, viscous && model.viscosity[node] > 0.0, kin, grad, heat);
+    const int child = model.bending.held_child[k];
+    const EdgeAngles* after = child < 0 ? nullptr : &grad.child_edges[static_cast<std::size_t>(child)];
+    energy += bend_at_held_frame(model, node, viscous && model.viscosity[node] > 0.0, after, kin, grad, heat);
   }
   for (const std::size_t node : model.bending.held_hinges) {
     if (past_half_turn(model, reference, node, kin)) return {Evaluation::Outcome::fold_back, node};

@@ -23,15 +23,14 @@ struct Held {
   bool viscous;
 };
 
-/// The springs of the edge at `side` of a held node (0 before, 1 after).
-Given pull_at(const Model& model, const Held& at, std::size_t side, const Kinematics& kin,
-              const Gradient& grad) {
+/// The springs of the edge at `side` of a held node (0 before, 1 after), which makes these angles.
+Given pull_at(const Model& model, const Held& at, std::size_t side, const EdgeAngles& by,
+              const Kinematics& kin, const Gradient& grad) {
   const std::size_t i = at.node;
   const std::size_t edge = i + side - 1;
   const std::size_t end = 2 * edge + 1 - side;
   const Frame& f = at.frame;
   const Vec3 e = kin.e[edge];
-  const EdgeAngles by = edge_angles(e, f);
   const double l = by.l - model.rest_l[end];
   const double m = by.m - model.rest_m[end];
   double fl = model.bend_l[i] * l;
@@ -91,12 +90,12 @@ bool past_half_turn(const Model& model, const State& reference, std::size_t node
          (model.has_after(node) && turned_through(reference, node, node, kin));
 }
 
-double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const Kinematics& kin,
-                          Gradient& grad, double& heat) {
+double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const EdgeAngles* after,
+                          const Kinematics& kin, Gradient& grad, double& heat) {
   const Held at{node, kin.frame[node], viscous ? kin.t_rate(node) : Vec3(Vec3::Zero()),
                 viscous ? kin.spin[node] : 0.0, viscous};
-  const auto pull = [&](std::size_t side, Columns3& to) {
-    const Given given = pull_at(model, at, side, kin, grad);
+  const auto pull = [&](std::size_t side, const EdgeAngles& by, Columns3& to) {
+    const Given given = pull_at(model, at, side, by, kin, grad);
     to.set(node, given.edge);
     grad.tangent.add(node, given.tangent);
     grad.spin[node] += given.spin;
@@ -104,8 +103,9 @@ double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, co
     return given.energy;
   };
   double energy = 0.0;
-  if (model.has_before(node)) energy += pull(0, grad.before);
-  if (model.has_after(node)) energy += pull(1, grad.after);
+  if (model.has_before(node)) energy += pull(0, edge_angles(kin.e[node - 1], at.frame), grad.before);
+  if (model.has_after(node))
+    energy += pull(1, after ? *after : edge_angles(kin.e[node], at.frame), grad.after);
   return energy;
 }
 
@@ -146,11 +146,12 @@ double give_way_at_hubs(const Model& model, const State& reference, bool viscous
     return model.twist[i] > 0.0 ? grad.twist_torque[i] / model.twist[i] : 0.0;
   };
   double energy = 0.0;
+  std::size_t k = 0;
   for (const Model::Hub& hub : model.hubs) {
     Eigen::Vector2d moment = Eigen::Vector2d::Zero();
     for (const Model::Hub::Child& child : hub.children) {
       const std::size_t i = child.root;
-      const EdgeAngles at = edge_angles(kin.e[i], kin.frame[i]);
+      const EdgeAngles& at = grad.child_edges[k++] = edge_angles(kin.e[i], kin.frame[i]);
       moment += child.moment * Vec3(at.l, at.m, strain(i));
     }
     const Eigen::Vector2d omega = hub.give * moment;

@@ -14,8 +14,9 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
 
 /// The same for a rod with twist, the angle split into those about the frame's two axes; adds what the frame
 /// feels. With `viscous` each but the third resists.
-double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const Kinematics& kin,
-                          Gradient& grad, double& heat);
+/// \param after  angles of the edge after the node, where they are known; else null
+double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const EdgeAngles* after,
+                          const Kinematics& kin, Gradient& grad, double& heat);
 
 /// The twist of edge i from its rest, unwrapped as at the reference.
 double twist_strain(const Model& model, const State& reference, std::size_t i, const Kinematics& kin);

@@ -11,6 +11,7 @@ System::Workspace::Workspace(const System::Model& model) {
   k.pose.resize(model.anchors.size());
   k.bodies.resize(model.bodies.size());
   k.swivel_spin.assign(model.swivels.size(), 0.0);
+  g.child_edges.resize(model.hub_children);
   g.swivel.assign(model.swivels.size(), Vec3::Zero());
   loads.on_bodies.resize(model.bodies.size());
   // Columns that a loop walks along side by side get neighbouring ranks.

@@ -59,11 +59,12 @@ struct Gradient {
   Columns3 before, after;  ///< by the edges at a held frame; elsewhere they stay 0
   Columns3 tangent;        ///< across the tangent
   Column spin, length;
-  Columns3 twist_tangent;    ///< per edge: what its twist spring gives either tangent
-  Column twist_torque;       ///< per edge
-  std::vector<Vec3> swivel;  ///< per swivel, as a torque on its frame, minus it; loads count
-  Columns3 given;            ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
-  Column energy, heat;       ///< per edge or node, of one kind of springs at a time
+  Columns3 twist_tangent;               ///< per edge: what its twist spring gives either tangent
+  Column twist_torque;                  ///< per edge
+  std::vector<Vec3> swivel;             ///< per swivel, as a torque on its frame, minus it; loads count
+  std::vector<EdgeAngles> child_edges;  ///< of the hubs' children in turn, their first edges
+  Columns3 given;       ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
+  Column energy, heat;  ///< per edge or node, of one kind of springs at a time
   Made made;
 };
 

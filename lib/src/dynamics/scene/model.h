@@ -98,6 +98,7 @@ struct System::Model {
     Eigen::Matrix2d give;  ///< omega by T: the inverse of all springs there
   };
   std::vector<Hub> hubs;
+  std::size_t hub_children = 0;  ///< of all
   /// Per node: the node that its place and frame move with (itself where it is attached to none), and whether
   /// that one feels it. Then the same for the places and turns of the bodies, which are attached to nothing.
   std::vector<std::size_t> carrier;
@@ -121,6 +122,7 @@ struct System::Model {
     Column hinge;                          ///< of a rod without twist
     std::vector<std::size_t> held_hinges;  ///< nodes with a held frame of rods without twist
     std::vector<std::size_t> held;         ///< nodes with a held frame of rods with twist
+    std::vector<int> held_child;           ///< of these, the place among the hubs' children, or -1
   };
   Bending bending;
 

@@ -111,6 +111,10 @@ void Model::add_hubs() {
   }
   std::erase_if(hubs, [](const Hub& hub) { return hub.children.size() > kMostChildren; });
   for (Hub& hub : hubs) hub.give = hub.give.inverse().eval();
+  std::vector<int> place(nodes, -1);
+  for (const Hub& hub : hubs)
+    for (const Hub::Child& child : hub.children) place[child.root] = static_cast<int>(hub_children++);
+  for (const std::size_t node : bending.held) bending.held_child.push_back(place[node]);
 }
 
 /// Neighbouring rods of one kind become one segment, so that loops run over as many nodes as they can; what a
