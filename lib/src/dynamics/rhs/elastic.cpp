@@ -356,7 +356,7 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, cons
       return at;
   }
   clear_ends(model, grad);
-  give_way_at_hubs(model, reference, inner.viscous, kin, grad);
+  if (!model.hubs.empty()) give_way_at_hubs(model, reference, inner.viscous, kin, grad);
   for (const Segment& s : model.segments) {
     if (inner.viscous && s.viscous) heat += resist_stretch(model, s, kin, grad) + sum_of(grad.heat, s);
     if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, kin, grad);

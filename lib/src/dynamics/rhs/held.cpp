@@ -118,9 +118,9 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
     const double square = e.cross(t).squaredNorm();
     const double sine = std::sqrt(square);
     const double cosine = e.dot(t);
-    const bool near = cosine > 0.0 && square <= lanes::kWideSquare;
+    const bool near = cosine > 0.0 && square <= lanes::kNearSquare;
     // Straight against the frame an edge may stand where there is no spring.
-    const double ratio = near         ? lanes::wide_asin_ratio(square)
+    const double ratio = near         ? lanes::asin_ratio(square)
                          : sine > 0.0 ? std::atan2(sine, cosine) / sine
                                       : 1.0;
     const double g = stiffness * ratio;

@@ -315,7 +315,8 @@ Evaluation kinematics(const Model& model, const State& reference, double t, cons
   if (bad)
     if (const Evaluation at = find_bad_edge(model, kin); !at.ok()) return at;
   if (const Evaluation at = take_frames(model, reference, y, what, kin); !at.ok()) return at;
-  if (const Evaluation at = place_bodies(model, reference, y, kin.bodies); !at.ok()) return at;
+  if (!model.bodies.empty())
+    if (const Evaluation at = place_bodies(model, reference, y, kin.bodies); !at.ok()) return at;
   kin.whole = true;
   kin.filled = what;
   return {};

@@ -98,7 +98,7 @@ void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, Lo
   assert(grad.made.fits(kin) && (!model.loaded || loads.made.fits(kin)));
   for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
     pass_on_torque(*attached, kin, grad, loads);
-  turn_swivels(model, kin, grad, loads);
+  if (!model.swivels.empty()) turn_swivels(model, kin, grad, loads);
   for (const Segment& s : model.segments)
     (s.twist || model.loaded ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
   for (const auto* held : {&model.bending.held, &model.bending.held_hinges})

@@ -240,7 +240,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
     pull_on_held_nodes(model, kin, grad, loads, pull);
   else
     pull_back(model, kin, grad, loads, pull);
-  power += anchor_power(model, kin, grad, pull, loads);
+  if (model.driven) power += anchor_power(model, kin, grad, pull, loads);
   if (model.damped) power += damping_power(model, kin);
 
   dy.resize(model.size());
@@ -248,7 +248,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
   bool finite = std::isfinite(power);
   const auto accelerate_all = by_edges ? accelerate_by_edges : accelerate_by_masses;
   finite &= accelerate_all(model, kin, pull, dy.data() + model.v_begin());
-  slide(model, dy);
+  if (!model.sliders.empty()) slide(model, dy);
   for (const Model::Segment& s : model.segments) {
     if (!s.twist) continue;
     const Eigen::Index k = model.twist_index[s.first];

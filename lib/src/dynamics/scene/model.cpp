@@ -302,6 +302,7 @@ void Model::choose_forces() {
     if (inverse_inertia[i] > 0.0) damped_inertia[i] = damping[i] * inertia[i];
     damped = damped || damping[i] > 0.0;
   }
+  driven = !driven_positions.empty() || !driven_frames.empty() || !sliders.empty() || !swivels.empty();
   // Those by what they may do alone.
   for (const Slider& slider : sliders) damped_mass[slider.node] = 0.0;
   for (const Swivel& swivel : swivels) damped_inertia[swivel.node] = 0.0;

@@ -74,6 +74,7 @@ struct System::Model {
   }
   /// Held nodes, but for those that pass what they feel to the node they are attached to.
   std::vector<std::size_t> driven_positions, driven_frames;
+  bool driven = false;  ///< there are such, slides or swivels
 
   /// A child's root: what it is attached to, and its rest frame in its parent's (coordinates of l, m, t).
   struct Attachment {
