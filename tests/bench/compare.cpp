@@ -4,8 +4,9 @@
 // For each row two figures: the median over all pairs of new over old, which no change of the machine's speed
 // from pair to pair moves, and the fastest new over the fastest old, which no disturbance of single runs
 // moves. A row is slower when both exceed BOUND. Rows that time nothing of the library (a plain loop, a peer)
-// are controls: how far theirs are from 1 is what the others can be trusted to. A row that no old
-// run has is named and not judged. The exit code is 1 when a row is slower or missing, 2 when there is nothing to compare.
+// are controls: how far theirs are from 1 is what the others can be trusted to. A row that no old run has is
+// named and not judged. The exit code is 1 when a row is slower or missing, 2 when there is nothing to
+// compare.
 #include <tendril/base/file.h>
 
 #include <algorithm>
