@@ -54,14 +54,19 @@ void check_rod(const Rod& rod, std::size_t index) {
                          "a rest shape with a frame at every node");
 }
 
+/// \param what  the anchor's member
+Vec3 direction_of(const Vec3& axis, const std::string& place, const char* what) {
+  const double length = axis.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw InvalidInput(place, "no direction", std::string("a ") + what + " that is finite and not zero");
+  return axis / length;
+}
+
 /// Projects on what a slide leaves free.
 Mat3 free_of(const Anchor& anchor, const std::string& place) {
   if (!anchor.holds_position)
     throw InvalidInput(place, "of a position that is not held", "holds_position, or no slide");
-  const double length = anchor.slide_axis.stableNorm();
-  if (!(length > 0.0) || !std::isfinite(length))
-    throw InvalidInput(place, "no direction", "a slide_axis that is finite and not zero");
-  const Vec3 axis = anchor.slide_axis / length;
+  const Vec3 axis = direction_of(anchor.slide_axis, place, "slide_axis");
   const Mat3 along = axis * axis.transpose();
   return anchor.slide == Anchor::Slide::line ? along : Mat3(Mat3::Identity() - along);
 }
@@ -70,10 +75,7 @@ Mat3 free_of(const Anchor& anchor, const std::string& place) {
 Vec3 swivel_axis(const Anchor& anchor, const Frame& rest, const std::string& place) {
   if (!anchor.holds_frame)
     throw InvalidInput(place, "of a frame that is not held", "holds_frame, or no swivel");
-  const double length = anchor.swivel_axis.stableNorm();
-  if (!(length > 0.0) || !std::isfinite(length))
-    throw InvalidInput(place, "no direction", "a swivel_axis that is finite and not zero");
-  const Vec3 axis = anchor.swivel_axis / length;
+  const Vec3 axis = direction_of(anchor.swivel_axis, place, "swivel_axis");
   return Vec3(axis.dot(rest.x), axis.dot(rest.y), axis.dot(rest.z)).normalized();
 }
 
