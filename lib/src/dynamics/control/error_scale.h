@@ -51,6 +51,11 @@ class ErrorScale {
   double rate() const;  ///< the largest of these, in lengths of the longest rod a time unit
 
  private:
+  struct Flight {
+    double speed;  ///< that goes the tree's longest rod's length in it; infinite where there is none
+    double over;   ///< the time over which errors add up
+  };
+
   static constexpr double kLeast = 1e-3;  ///< of the fastest tree's speed, too
 
   double fastest() const;
@@ -70,11 +75,7 @@ class ErrorScale {
   std::vector<double> mass_;         ///< per node
   std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
   std::vector<double> body_size_;    ///< radius of gyration
-  struct Flight {
-    double speed;  ///< that goes the tree's longest rod's length in it; infinite where there is none
-    double over;   ///< the time over which errors add up
-  };
-  std::vector<Flight> flights_;  ///< per tree
+  std::vector<Flight> flights_;      ///< per tree
   std::vector<Speed> speeds_;
   double longest_ = 0.0, slowest_ = 0.0;
   double most_kinetic_ = 0.0, most_own_kinetic_ = 0.0;
