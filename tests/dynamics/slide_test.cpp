@@ -18,6 +18,17 @@ Anchor sliding(std::size_t node, Slide slide, const Vec3& axis, bool holds_frame
   return {.rod = 0, .node = node, .holds_frame = holds_frame, .slide = slide, .slide_axis = axis};
 }
 
+/// Rises from a point at a speed.
+std::function<AnchorPose(double)> lifted(const Vec3& from, double speed) {
+  return [=](double t) {
+    AnchorPose pose;
+    pose.velocity = speed * Vec3::UnitZ();
+    pose.position = from + t * pose.velocity;
+    pose.frame = frame_towards(Vec3::UnitX(), Vec3::UnitY()).frame;
+    return pose;
+  };
+}
+
 std::shared_ptr<const Force> weight() {
   return std::make_shared<Gravity>(Vec3(0, 0, -kGravity));
 }
@@ -279,13 +290,7 @@ TEST(Sliding, IsFollowedAsItsPlaneMoves) {
   scene.rods.push_back(bar(Vec3::Zero(), Vec3(1, 0, 0), 24, 1e9, 0.01));
   scene.anchors.push_back({.rod = 0, .node = 0});
   scene.anchors.push_back(sliding(24, Slide::plane, Vec3::UnitZ()));
-  scene.anchors[1].motion = [](double t) {
-    AnchorPose pose;
-    pose.position = Vec3(7, -3, 0.02 * t);  // only its height counts
-    pose.frame = frame_towards(Vec3::UnitX(), Vec3::UnitY()).frame;
-    pose.velocity = Vec3(0, 0, 0.02);
-    return pose;
-  };
+  scene.anchors[1].motion = lifted(Vec3(7, -3, 0), 0.02);  // only its height counts
   StaticsOptions options;
   options.until = 1.0;
   const Equilibrium found = balanced(System(scene), options);
@@ -302,13 +307,7 @@ TEST(Sliding, IsFollowedFarInFewStepsHoweverStiffTheRod) {
   scene.rods.push_back(test::straight_rod(24, 1e13, 0.002));
   scene.anchors.push_back({.rod = 0, .node = 0});
   scene.anchors.push_back(sliding(24, Slide::plane, Vec3(0.3, 0.1, 1)));
-  scene.anchors[1].motion = [](double t) {
-    AnchorPose pose;
-    pose.position = Vec3(1, 0, 0.7 * t);
-    pose.frame = frame_towards(Vec3::UnitX(), Vec3::UnitY()).frame;
-    pose.velocity = Vec3(0, 0, 0.7);
-    return pose;
-  };
+  scene.anchors[1].motion = lifted(Vec3::UnitX(), 0.7);
   StaticsOptions options;
   options.until = 1.0;
   const Equilibrium found = balanced(System(scene), options);
