@@ -34,7 +34,7 @@ class GlbReader {
     const Json& accessor = json.at("accessors").at(index);
     const Json& view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
     static const std::map<std::string, std::size_t> sizes{
-        {"SCALAR", 1}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
     const std::size_t count = accessor.at("count").get<std::size_t>() * sizes.at(accessor.at("type"));
     EXPECT_EQ(view.at("byteOffset").get<std::size_t>() % 4, 0u);
     const char* at = buffer_.data() + view.at("byteOffset").get<std::size_t>();
@@ -52,7 +52,21 @@ class GlbReader {
   std::vector<double> attribute(const std::string& name) const {
     return numbers(primitive().at("attributes").at(name));
   }
-  const Json& primitive() const { return json.at("meshes").at(0).at("primitives").at(0); }
+  const Json& primitive(std::size_t mesh = 0) const {
+    return json.at("meshes").at(mesh).at("primitives").at(0);
+  }
+  /// A node by its name.
+  std::size_t node(const std::string& name) const {
+    const Json& nodes = json.at("nodes");
+    const auto named = [&](const Json& n) { return n.value("name", "") == name; };
+    const auto found = std::find_if(nodes.begin(), nodes.end(), named);
+    EXPECT_NE(found, nodes.end()) << name;
+    return static_cast<std::size_t>(found - nodes.begin());
+  }
+  /// Where it is in the world, at a key of the animation.
+  Eigen::Affine3d place(const std::string& name, std::size_t moment) const {
+    return pose(moment).at(node(name));
+  }
 
   std::size_t moments() const {
     const Json& sampler = json.at("animations").at(0).at("samplers").at(0);

@@ -2,6 +2,7 @@
 #include <tendril/bind/import.h>
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <optional>
 #include <set>
@@ -198,6 +199,92 @@ TEST(Gltf, KeepsColorsAndNormals) {
   EXPECT_NEAR(normal[2], 0.8, 1e-7);
 }
 
+TEST(Gltf, KeepsTextureCoordinates) {
+  const Shown of_points(bending(), "--gltf", colored_tube("STOFF", " 0.25 0.875", ""));
+  const std::vector<double> texture = of_points.glb.attribute("TEXCOORD_0");
+  ASSERT_EQ(texture.size(), 2 * of_points.glb.rest().size());
+  for (std::size_t i = 0; i < texture.size(); i += 2) {
+    EXPECT_EQ(texture[i], 0.25);
+    EXPECT_EQ(texture[i + 1], 0.125);  // rows are counted from above
+  }
+}
+
+/// The tube with one place in a texture for the corners of some faces and another for those of the others, in
+/// no regular order.
+std::string checkered_tube() {
+  std::istringstream off(tube_off());
+  std::string head, out = "vt 0.25 0\nvt 0.75 0\n";
+  std::size_t points, faces, edges, corners, corner;
+  off >> head >> points >> faces >> edges;
+  for (std::size_t i = 0; i < points; ++i) {
+    std::string x, y, z;
+    off >> x >> y >> z;
+    out += "v " + x + " " + y + " " + z + "\n";
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    out += "f";
+    off >> corners;
+    for (std::size_t k = 0; k < corners && off >> corner; ++k)
+      out += " " + std::to_string(corner + 1) + "/" + std::to_string(1 + std::popcount(f) % 2);
+    out += "\n";
+  }
+  return out;
+}
+
+TEST(Gltf, APointHasAVertexForEachOfItsPlacesInATexture) {
+  Json scene = bending();
+  scene["mesh"] = "tube.obj";
+  const Folder folder;
+  folder.write("tube.obj", checkered_tube());
+  folder.write("s.json", scene.dump());
+  const Outcome run = folder.run("run s.json --out out --no-pictures --gltf");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const GlbReader glb(bytes_of(folder / "out/s.glb"));
+  const std::vector<double> texture = glb.attribute("TEXCOORD_0"),
+                            corners = glb.numbers(glb.primitive()["indices"]);
+  std::size_t even = 0, odd = 0;
+  for (std::size_t k = 0; k < corners.size(); k += 3) {
+    const auto s = [&](std::size_t i) { return texture[2 * static_cast<std::size_t>(corners[i])]; };
+    EXPECT_EQ(s(k), s(k + 1));
+    EXPECT_EQ(s(k), s(k + 2));
+    s(k) == 0.25 ? ++even : ++odd;
+  }
+  EXPECT_GT(even, 10u);
+  EXPECT_GT(odd, 10u);
+}
+
+TEST(Gltf, SolidsMoveBesideTheMesh) {
+  Json scene = bending();
+  scene["bodies"] = {{{"name", "ball"},
+                      {"shape", {{"type", "ball"}, {"radius", 0.25}}},
+                      {"position", {3, 1, 0.5}},
+                      {"free", {{"mass", 2}, {"spin", {0, 0, 3}}}}},
+                     {{"name", "block"},
+                      {"shape", {{"type", "box"}, {"size", {0.5, 0.25, 0.125}}}},
+                      {"position", {-4, 1, 0}}}};
+  scene["contact"] = {{"of", "mesh"}, {"skin", 0.1}, {"range", 0.1}};
+  for (const char* flags : {"--gltf", "--gltf-morph"}) {
+    const Shown shown(scene, flags);
+    for (std::size_t m = 0; m < shown.glb.moments(); ++m) {
+      const double t = 0.05 * static_cast<double>(m);
+      const Vec3 falls = Vec3(3, 1, 0.5) + 0.5 * t * t * Vec3(6, -9.81, 2);
+      const Eigen::Affine3d ball = shown.glb.place("ball", m);
+      EXPECT_LT((ball.translation() - falls).norm(), 1e-5) << m;
+      EXPECT_LT((ball.linear() - Eigen::AngleAxisd(3 * t, Vec3::UnitZ()).toRotationMatrix()).norm(), 1e-5);
+      EXPECT_LT((shown.glb.place("block", m).translation() - Vec3(-4, 1, 0)).norm(), 1e-6);
+    }
+    const Json& nodes = shown.glb.json["nodes"];
+    const auto extent = [&](const char* name) {
+      const Json& at = shown.glb.primitive(nodes[shown.glb.node(name)]["mesh"])["attributes"]["POSITION"];
+      return shown.glb.json["accessors"][at.get<std::size_t>()]["max"].get<std::vector<double>>();
+    };
+    EXPECT_NEAR(extent("ball")[2], 0.25, 1e-6);
+    EXPECT_EQ(extent("block"), (std::vector<double>{0.25, 0.125, 0.0625}));
+    const double off = shown.error(std::string(flags) == "--gltf" ? &GlbReader::at : &GlbReader::morphed);
+    EXPECT_LE(off, 1e-3);
+  }
+}
+
 TEST(Gltf, IsRefusedWithoutAMesh) {
   Json scene = bending();
   scene.erase("mesh");
@@ -214,8 +301,13 @@ TEST(Gltf, PassesTheValidatorWhereInstalled) {
     GTEST_SKIP() << "needs node, and gltf-validator of npm in " TENDRIL_NPM ", which tests/run.sh fetches";
   const std::pair<Json, std::string> runs[] = {
       {bending(), "--gltf"}, {forked(), "--gltf --gltf-tolerance 1e-4"}, {bending(), "--gltf-morph"}};
-  for (const auto& [scene, flags] : runs) {
-    const Shown shown(scene, flags, colored_tube("COFF", " 255 128 0 200", ""));
+  for (auto [scene, flags] : runs) {
+    scene["bodies"] = {{{"name", "ground"},
+                        {"shape", {{"type", "half_space"}}},
+                        {"axis", {0, 1, 0}},
+                        {"position", {0, -9, 0}}}};
+    scene["contact"] = {{"of", "mesh"}, {"skin", 0.1}, {"range", 0.1}};
+    const Shown shown(scene, flags, colored_tube("STCOFF", " 255 128 0 200 0.5 0.5", ""));
     const std::string command = "node '" TENDRIL_SOURCE_DIR "/tests/runner/films/validate.cjs' '" TENDRIL_NPM
                                 "' '" +
                                 (shown.folder / "out/s.glb") + "' > '" + (shown.folder / "found.json") + "'";

@@ -31,12 +31,13 @@ TEST(Run, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
   const Folder folder;
   folder.write("tube.off", tube_off());
   folder.write("scene.json", full_scene());
-  for (const char* run : {"--out a --threads 1", "--out b --threads 1", "--out c --threads 2"}) {
+  for (const char* run : {"--out a --threads 1 --film a/film.apng", "--out b --threads 1 --film b/film.apng",
+                          "--out c --threads 5 --film c/film.apng"}) {
     const Outcome outcome = folder.run(std::string("run scene.json ") + run);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   const auto first = contents(folder / "a");
-  EXPECT_EQ(first.size(), 6U + 4U);  // frames, trajectory, summary, two pictures
+  EXPECT_EQ(first.size(), 6U + 5U);  // frames, trajectory, summary, two pictures, the film
   EXPECT_EQ(first, contents(folder / "b"));
   EXPECT_EQ(first, contents(folder / "c"));
   EXPECT_NE(first.at("frame_0000.ply"), first.at("frame_0005.ply"));

@@ -1,6 +1,7 @@
 #include "draw/tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -44,15 +45,12 @@ class Canvas {
         sunlit_(seen_.size()),
         sky_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
     for_each_row(view.height, threads, [&](int y) {
-      for (int x = 0; x < view_.width; ++x) {
-        seen_[pixel(x, y)] = look(x, y, 0.5F, 0.5F);
-        sunlit_[pixel(x, y)] = tracer_.sunlit(seen_[pixel(x, y)], Samples(x, y), 0) ? 1 : 0;
-      }
+      for (int x = 0; x < view_.width; x += static_cast<int>(kBundle)) look_at_middles(x, y);
     });
     std::vector<float> measured(sky_.size());
     for_each_row(rows_, threads, [&](int j) {
       for (int i = 0; i < columns_; ++i)
-        measured[cell(i, j)] = tracer_.skylight(corner(i, j), Samples(across(i), down(j)), 0, kSkyRays);
+        measured[cell(i, j)] = tracer_.skylight(corner(i, j), Samples(across(i), down(j)), kSkyRays);
     });
     for_each_row(rows_, threads, [&](int j) {
       for (int i = 0; i < columns_; ++i) sky_[cell(i, j)] = smoothed(measured, i, j);
@@ -65,11 +63,8 @@ class Canvas {
     if (is_plain(x, y)) return tracer_.shade(middle, sunlit_[pixel(x, y)], sky(middle, x, y));
     const Samples samples(x, y);
     Vec3f sum = Vec3f::Zero();
-    for (int s = 0; s < view_.samples; ++s) {
-      const Eigen::Vector2f jitter = samples.pair(0, s);
-      const Seen seen = look(x, y, jitter.x(), jitter.y());
-      sum += tracer_.shade(seen, tracer_.sunlit(seen, samples, s) ? 1.0F : 0.0F, sky(seen, x, y));
-    }
+    for (int s = 0; s < view_.samples; s += static_cast<int>(kBundle))
+      sum += light_of(x, y, samples, s, std::min(kBundle, static_cast<std::size_t>(view_.samples - s)));
     return sum / static_cast<float>(view_.samples);
   }
 
@@ -99,9 +94,40 @@ class Canvas {
   int across(int i) const { return std::min(i * kCell, view_.width - 1); }
   int down(int j) const { return std::min(j * kCell, view_.height - 1); }
 
-  Seen look(int x, int y, float part_x, float part_y) const {
-    return tracer_.look(2.0F * (static_cast<float>(x) + part_x) / static_cast<float>(view_.width) - 1.0F,
-                        1.0F - 2.0F * (static_cast<float>(y) + part_y) / static_cast<float>(view_.height));
+  Eigen::Vector2f place(int x, int y, const Eigen::Vector2f& part) const {
+    return {2.0F * (static_cast<float>(x) + part.x()) / static_cast<float>(view_.width) - 1.0F,
+            1.0F - 2.0F * (static_cast<float>(y) + part.y()) / static_cast<float>(view_.height)};
+  }
+
+  /// At a pixel and those to the right of it.
+  void look_at_middles(int first, int y) {
+    const std::size_t count = std::min(kBundle, static_cast<std::size_t>(view_.width - first));
+    std::array<Eigen::Vector2f, kBundle> places, sun;
+    for (std::size_t k = 0; k < count; ++k) {
+      const int x = first + static_cast<int>(k);
+      places[k] = place(x, y, {0.5F, 0.5F});
+      sun[k] = Samples(x, y).pair(1, 0);
+    }
+    const std::span<Seen> seen(&seen_[pixel(first, y)], count);
+    tracer_.look({places.data(), count}, seen);
+    tracer_.sunlit(seen, {sun.data(), count}, {&sunlit_[pixel(first, y)], count});
+  }
+
+  /// The light of a pixel's samples from `first` on, added up.
+  Vec3f light_of(int x, int y, const Samples& samples, int first, std::size_t count) const {
+    std::array<Eigen::Vector2f, kBundle> places, sun;
+    std::array<Seen, kBundle> seen;
+    std::array<std::uint8_t, kBundle> lit;
+    for (std::size_t k = 0; k < count; ++k) {
+      places[k] = place(x, y, samples.pair(0, first + static_cast<int>(k)));
+      sun[k] = samples.pair(1, first + static_cast<int>(k));
+    }
+    tracer_.look({places.data(), count}, {seen.data(), count});
+    tracer_.sunlit({seen.data(), count}, {sun.data(), count}, {lit.data(), count});
+    Vec3f sum = Vec3f::Zero();
+    for (std::size_t k = 0; k < count; ++k)
+      sum += tracer_.shade(seen[k], static_cast<float>(lit[k]), sky(seen[k], x, y));
+    return sum;
   }
 
   /// Whether all within two pixels agree on the sun: in a half shadow few do.
@@ -138,7 +164,7 @@ class Canvas {
         sum += weight * sky_[cell(i + a, j + b)];
         weights += weight;
       }
-    return weights > 0.0F ? sum / weights : tracer_.skylight(seen, Samples(x, y), 0, kOwnRays);
+    return weights > 0.0F ? sum / weights : tracer_.skylight(seen, Samples(x, y), kOwnRays);
   }
 
   const Tracer& tracer_;
@@ -149,21 +175,38 @@ class Canvas {
   std::vector<float> sky_;
 };
 
-/// \param dither  0 to 1, hides the steps of 8 bits in the pale background
-std::uint8_t encode(float light, float dither) {
-  // Straight up to 0.7, then a shoulder that keeps highlights from clipping; the eye's gamma of 2.2.
-  const float knee = 0.7F;
-  const float soft =
-      light <= knee ? light : knee + (1.0F - knee) * (1.0F - std::exp(-(light - knee) / (1.0F - knee)));
-  const float encoded = std::pow(std::clamp(soft, 0.0F, 1.0F), 1.0F / 2.2F);
-  return static_cast<std::uint8_t>(std::min(255.0F, 255.0F * encoded + dither));
-}
+/// From light to bytes: straight up to 0.7, then a shoulder that keeps highlights from clipping; the eye's
+/// gamma of 2.2. A table over the root of the light, of which the curve is nearly a straight line.
+class Encoder {
+ public:
+  Encoder() {
+    for (std::size_t k = 0; k < table_.size(); ++k) {
+      const float root = static_cast<float>(k) / kSteps, light = root * root, knee = 0.7F;
+      const float soft =
+          light <= knee ? light : knee + (1.0F - knee) * (1.0F - std::exp(-(light - knee) / (1.0F - knee)));
+      table_[k] = 255.0F * std::pow(std::min(soft, 1.0F), 1.0F / 2.2F);
+    }
+  }
+
+  /// \param dither  0 to 1, hides the steps of 8 bits in the pale background
+  std::uint8_t operator()(float light, float dither) const {
+    const float at = std::min(kSteps * std::sqrt(std::max(light, 0.0F)), kSteps * kMost - 1.0F);
+    const auto k = static_cast<std::size_t>(at);
+    const float encoded = table_[k] + (at - static_cast<float>(k)) * (table_[k + 1] - table_[k]);
+    return static_cast<std::uint8_t>(std::min(255.0F, encoded + dither));
+  }
+
+ private:
+  static constexpr float kSteps = 512.0F, kMost = 2.0F;  // beyond its square, all is white
+  std::array<float, static_cast<std::size_t>(kSteps* kMost) + 1> table_;
+};
 
 }  // namespace
 
 Picture draw(const Drawing& drawing, const Camera& camera, const scene::ViewOptions& view, int threads) {
   const Tracer tracer(drawing, camera);
   const Canvas canvas(tracer, view, threads);
+  const Encoder encode;
   Picture picture(view.width, view.height);
   for_each_row(view.height, threads, [&](int y) {
     for (int x = 0; x < view.width; ++x) {

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -65,17 +66,32 @@ void attach_strand(RTCDevice device, RTCScene scene, const Strand& strand, unsig
   attach(scene, geometry, id);
 }
 
-RTCRay make_ray(const Vec3f& origin, const Vec3f& direction, float reach) {
-  RTCRay ray{};
-  ray.org_x = origin.x();
-  ray.org_y = origin.y();
-  ray.org_z = origin.z();
-  ray.dir_x = direction.x();
-  ray.dir_y = direction.y();
-  ray.dir_z = direction.z();
-  ray.tfar = reach;
-  ray.mask = ~0U;
-  return ray;
+struct alignas(32) Lanes {
+  std::array<int, kBundle> valid{};  ///< -1 where there is a ray
+};
+
+Lanes first_lanes(std::size_t count) {
+  Lanes out;
+  std::fill_n(out.valid.begin(), count, -1);
+  return out;
+}
+
+void set_ray(RTCRay8& rays, std::size_t k, const Vec3f& origin, const Vec3f& direction, float reach) {
+  rays.org_x[k] = origin.x();
+  rays.org_y[k] = origin.y();
+  rays.org_z[k] = origin.z();
+  rays.dir_x[k] = direction.x();
+  rays.dir_y[k] = direction.y();
+  rays.dir_z[k] = direction.z();
+  rays.tfar[k] = reach;
+  rays.mask[k] = ~0U;
+}
+
+RTCIntersectContext context_of(RTCIntersectContextFlags flags) {
+  RTCIntersectContext out;
+  rtcInitIntersectContext(&out);
+  out.flags = flags;
+  return out;
 }
 
 }  // namespace
@@ -86,22 +102,21 @@ struct RayScene::Implementation {
   Shape shape;
   std::vector<Vec3f> strand_colors;
 
-  Hit describe(const RTCRayHit& found, const Vec3f& direction) const {
-    const RTCHit& at = found.hit;
+  Hit describe(const RTCRayHit8& found, std::size_t lane, const Vec3f& direction) const {
+    const RTCHit8& at = found.hit;
     Hit hit;
-    hit.distance = found.ray.tfar;
-    hit.flat = Vec3f(at.Ng_x, at.Ng_y, at.Ng_z).normalized();
+    hit.distance = found.ray.tfar[lane];
+    hit.flat = Vec3f(at.Ng_x[lane], at.Ng_y[lane], at.Ng_z[lane]).normalized();
     hit.normal = hit.flat;
-    if (at.geomID == 0) {
-      const std::size_t k = 3 * static_cast<std::size_t>(at.primID);
-      const float w = 1.0F - at.u - at.v;
-      hit.normal =
-          (w * shape.normals[k] + at.u * shape.normals[k + 1] + at.v * shape.normals[k + 2]).normalized();
+    if (at.geomID[lane] == 0) {
+      const std::size_t k = 3 * static_cast<std::size_t>(at.primID[lane]);
+      const float u = at.u[lane], v = at.v[lane], w = 1.0F - u - v;
+      hit.normal = (w * shape.normals[k] + u * shape.normals[k + 1] + v * shape.normals[k + 2]).normalized();
       hit.color = shape.colors.empty()
                       ? kWarmGrey
-                      : Vec3f(w * shape.colors[k] + at.u * shape.colors[k + 1] + at.v * shape.colors[k + 2]);
+                      : Vec3f(w * shape.colors[k] + u * shape.colors[k + 1] + v * shape.colors[k + 2]);
     } else {
-      hit.color = strand_colors[at.geomID - 1];
+      hit.color = strand_colors[at.geomID[lane] - 1];
     }
     if (hit.flat.dot(direction) > 0.0F) hit.flat = -hit.flat;
     if (hit.normal.dot(hit.flat) < 0.0F) hit.normal = -hit.normal;
@@ -131,24 +146,32 @@ RayScene::RayScene(const bind::PolygonMesh* mesh, std::span<const Strand> strand
 
 RayScene::~RayScene() = default;
 
-std::optional<Hit> RayScene::nearest(const Vec3f& origin, const Vec3f& direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit found{};
-  found.ray = make_ray(origin, direction, 1e30F);
-  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(self_->scene.get(), &context, &found);
-  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return self_->describe(found, direction);
+void RayScene::nearest(const Vec3f& origin, std::span<const Vec3f> directions,
+                       std::span<std::optional<Hit>> hits) const {
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  const Lanes lanes = first_lanes(directions.size());
+  RTCRayHit8 found{};
+  for (std::size_t k = 0; k < directions.size(); ++k)
+    set_ray(found.ray, k, origin, directions[k], 1e30F);
+  std::fill_n(found.hit.geomID, kBundle, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(found.hit.instID[0], kBundle, RTC_INVALID_GEOMETRY_ID);
+  rtcIntersect8(lanes.valid.data(), self_->scene.get(), &context, &found);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    hits[k].reset();
+    if (found.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID) hits[k] = self_->describe(found, k, directions[k]);
+  }
 }
 
-bool RayScene::blocked(const Vec3f& origin, const Vec3f& direction, float reach) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay ray = make_ray(origin, direction, reach);
-  rtcOccluded1(self_->scene.get(), &context, &ray);
-  return ray.tfar < 0.0F;
+std::uint32_t RayScene::blocked(std::span<const Vec3f> origins, std::span<const Vec3f> directions,
+                                float reach) const {
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  const Lanes lanes = first_lanes(origins.size());
+  RTCRay8 rays{};
+  for (std::size_t k = 0; k < origins.size(); ++k) set_ray(rays, k, origins[k], directions[k], reach);
+  rtcOccluded8(lanes.valid.data(), self_->scene.get(), &context, &rays);
+  std::uint32_t out = 0;
+  for (std::size_t k = 0; k < origins.size(); ++k) out |= (rays.tfar[k] < 0.0F ? 1U : 0U) << k;
+  return out;
 }
 
 }  // namespace tendril::runner

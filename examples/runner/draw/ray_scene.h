@@ -2,6 +2,7 @@
 
 #include "draw/drawing.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,9 @@ struct Hit {
   Vec3f color;
 };
 
+constexpr std::size_t kBundle =
+    8;  ///< rays that go through the scene together; so many cost about as two alone
+
 /// Solid things and strands in Embree's hands, in coordinates (p - centre) / size.
 class RayScene {
  public:
@@ -23,9 +27,13 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  std::optional<Hit> nearest(const Vec3f& origin, const Vec3f& direction) const;
-  /// True when something lies within `reach` of the origin.
-  bool blocked(const Vec3f& origin, const Vec3f& direction, float reach) const;
+  /// What rays from one origin meet, a direction each.
+  /// \param directions  unit, at most kBundle, and best close to each other
+  void nearest(const Vec3f& origin, std::span<const Vec3f> directions,
+               std::span<std::optional<Hit>> hits) const;
+  /// Bit k tells whether something lies within `reach` of the k-th origin.
+  /// \param origins, directions  as many of both, at most kBundle
+  std::uint32_t blocked(std::span<const Vec3f> origins, std::span<const Vec3f> directions, float reach) const;
 
  private:
   struct Implementation;

@@ -1,5 +1,6 @@
 #include "draw/shape.h"
 
+#include <array>
 #include <cmath>
 
 namespace tendril::runner {
@@ -7,15 +8,23 @@ namespace {
 
 constexpr float kCrease = 0.766F;  // cosine of 40 degrees
 
-float linear(std::uint8_t value) {
-  return std::pow(static_cast<float>(value) / 255.0F, 2.2F);
-}
+/// Light from bytes.
+class Linear {
+ public:
+  Linear() {
+    for (std::size_t k = 0; k < table_.size(); ++k)
+      table_[k] = std::pow(static_cast<float>(k) / 255.0F, 2.2F);
+  }
+  Vec3f operator()(const bind::Color& color) const {
+    return {table_[color[0]], table_[color[1]], table_[color[2]]};
+  }
 
-Vec3f linear(const bind::Color& color) {
-  return {linear(color[0]), linear(color[1]), linear(color[2])};
-}
+ private:
+  std::array<float, 256> table_;
+};
 
 void add_triangles(const bind::PolygonMesh& mesh, Shape& shape) {
+  const Linear linear;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
     for (std::size_t k = 1; k + 1 < face.size(); ++k) {
@@ -56,14 +65,15 @@ Around around_points(const Shape& shape) {
   return out;
 }
 
-Vec3f corner_normal(const Vec3f& own, std::span<const std::size_t> neighbours,
-                    const std::vector<Vec3f>& area) {
+Vec3f corner_normal(std::size_t triangle, std::span<const std::size_t> neighbours,
+                    const std::vector<Vec3f>& area, const std::vector<float>& length) {
+  const Vec3f& own = area[triangle];
   Vec3f sum = Vec3f::Zero();
   for (const std::size_t other : neighbours) {
-    if (area[other].dot(own) >= kCrease * area[other].norm() * own.norm()) sum += area[other];
+    if (area[other].dot(own) >= kCrease * length[other] * length[triangle]) sum += area[other];
   }
-  const float length = sum.norm();
-  return length > 0.0F ? Vec3f(sum / length) : own;
+  const float whole = sum.norm();
+  return whole > 0.0F ? Vec3f(sum / whole) : own;
 }
 
 }  // namespace
@@ -73,12 +83,14 @@ Shape make_shape(const bind::PolygonMesh& mesh, const Vec3& centre, double size)
   for (const Vec3& p : mesh.points) shape.points.push_back(((p - centre) / size).cast<float>());
   add_triangles(mesh, shape);
   const std::vector<Vec3f> area = area_normals(shape);
+  std::vector<float> length;
+  for (const Vec3f& a : area) length.push_back(a.norm());
   const Around around = around_points(shape);
   for (std::size_t k = 0; k < shape.triangles.size(); ++k) {
     const std::size_t i = shape.triangles[k];
     const auto neighbours =
         std::span(around.list).subspan(around.begin[i], around.begin[i + 1] - around.begin[i]);
-    shape.normals.push_back(corner_normal(area[k / 3], neighbours, area));
+    shape.normals.push_back(corner_normal(k / 3, neighbours, area, length));
   }
   return shape;
 }

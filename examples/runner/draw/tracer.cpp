@@ -1,6 +1,7 @@
 #include "draw/tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -40,63 +41,95 @@ Tracer::Tracer(const Drawing& drawing, const Camera& camera)
       sun_x_(across(sun_).x),
       sun_y_(across(sun_).y) {}
 
-Seen Tracer::look(float x, float y) const {
+Seen Tracer::describe(const Vec3f& direction, float height, const std::optional<Hit>& hit) const {
   Seen out;
-  out.height = y;
-  out.direction = (forward_ + x * right_ + y * up_).normalized();
-  const std::optional<Hit> hit = solid_.nearest(eye_, out.direction);
+  out.height = height;
+  out.direction = direction;
   if (hit) {
     out.kind = Seen::Kind::surface;
     out.distance = hit->distance;
     out.normal = hit->normal;
     out.color = hit->color;
-    out.at = eye_ + hit->distance * out.direction + kEpsilon * hit->flat;
-  } else {
-    const float down = out.direction.dot(ground_up_), above = eye_.dot(ground_up_) - ground_;
-    const float distance = down < 0.0F && above > 0.0F ? above / -down : -1.0F;
-    const Vec3f at = eye_ + distance * out.direction + kEpsilon * ground_up_;
-    if (distance > 0.0F && at.norm() <= kGroundSize) {
-      out.kind = Seen::Kind::ground;
-      out.distance = distance;
-      out.normal = ground_up_;
-      out.at = at;
-    }
+    out.at = eye_ + hit->distance * direction + kEpsilon * hit->flat;
+    return out;
   }
-  if (!has_over_) return out;
-  if (const std::optional<Hit> strand = over_.nearest(eye_, out.direction)) {
-    out.strand = true;
-    const float facing = 0.35F + 0.65F * std::max(0.0F, -strand->normal.dot(out.direction));
-    out.bright = strand->color * (1.3F * facing);
-    out.strand_hidden = hit && hit->distance < strand->distance;
+  const float down = direction.dot(ground_up_), above = eye_.dot(ground_up_) - ground_;
+  const float distance = down < 0.0F && above > 0.0F ? above / -down : -1.0F;
+  const Vec3f at = eye_ + distance * direction + kEpsilon * ground_up_;
+  if (distance > 0.0F && at.norm() <= kGroundSize) {
+    out.kind = Seen::Kind::ground;
+    out.distance = distance;
+    out.normal = ground_up_;
+    out.at = at;
   }
   return out;
 }
 
-bool Tracer::blocked(const Seen& seen, const Vec3f& towards, float reach) const {
-  return solid_.blocked(seen.at, towards, reach);
+void Tracer::look(std::span<const Eigen::Vector2f> places, std::span<Seen> out) const {
+  std::array<Vec3f, kBundle> directions;
+  std::array<std::optional<Hit>, kBundle> hits;
+  const std::size_t count = places.size();
+  for (std::size_t k = 0; k < count; ++k)
+    directions[k] = (forward_ + places[k].x() * right_ + places[k].y() * up_).normalized();
+  const std::span<const Vec3f> towards(directions.data(), count);
+  solid_.nearest(eye_, towards, hits);
+  for (std::size_t k = 0; k < count; ++k) out[k] = describe(directions[k], places[k].y(), hits[k]);
+  if (!has_over_) return;
+  over_.nearest(eye_, towards, hits);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!hits[k]) continue;
+    out[k].strand = true;
+    const float facing = 0.35F + 0.65F * std::max(0.0F, -hits[k]->normal.dot(directions[k]));
+    out[k].bright = hits[k]->color * (1.3F * facing);
+    out[k].strand_hidden = out[k].kind == Seen::Kind::surface && out[k].distance < hits[k]->distance;
+  }
 }
 
-bool Tracer::sunlit(const Seen& seen, const Samples& samples, int s) const {
-  if (seen.kind == Seen::Kind::wall || !(seen.normal.dot(sun_) > 0.0F)) return false;
-  const Eigen::Vector2f u = samples.pair(1, s);
-  const float radius = kSunRadius * std::sqrt(u.x()), angle = 2.0F * std::numbers::pi_v<float> * u.y();
-  const Vec3f towards = sun_ + radius * (std::cos(angle) * sun_x_ + std::sin(angle) * sun_y_);
-  return !blocked(seen, towards.normalized(), 1e30F);
+Vec3f Tracer::to_sun(const Eigen::Vector2f& sample) const {
+  const float radius = kSunRadius * std::sqrt(sample.x());
+  const float angle = 2.0F * std::numbers::pi_v<float> * sample.y();
+  return (sun_ + radius * (std::cos(angle) * sun_x_ + std::sin(angle) * sun_y_)).normalized();
 }
 
-float Tracer::skylight(const Seen& seen, const Samples& samples, int first, int count) const {
+void Tracer::sunlit(std::span<const Seen> seen, std::span<const Eigen::Vector2f> samples,
+                    std::span<std::uint8_t> out) const {
+  std::array<Vec3f, kBundle> origins, directions;
+  std::array<std::size_t, kBundle> of;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    out[k] = 0;
+    if (seen[k].kind == Seen::Kind::wall || !(seen[k].normal.dot(sun_) > 0.0F)) continue;
+    origins[count] = seen[k].at;
+    directions[count] = to_sun(samples[k]);
+    of[count++] = k;
+  }
+  if (count == 0) return;
+  const std::uint32_t dark =
+      solid_.blocked({origins.data(), count}, {directions.data(), count}, 1e30F);
+  for (std::size_t j = 0; j < count; ++j) out[of[j]] = (dark >> j & 1U) == 0 ? 1 : 0;
+}
+
+float Tracer::skylight(const Seen& seen, const Samples& samples, int count) const {
   if (seen.kind == Seen::Kind::wall) return 1.0F;
   const Axes axes = across(seen.normal);
+  std::array<Vec3f, kBundle> origins, directions;
+  origins.fill(seen.at);
   float sum = 0.0F;
-  for (int k = first; k < first + count; ++k) {
-    const Eigen::Vector2f u = samples.pair(2, k);
-    const float radius = std::sqrt(u.x()), angle = 2.0F * std::numbers::pi_v<float> * u.y();
-    const Vec3f towards = radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y) +
-                          std::sqrt(std::max(0.0F, 1.0F - u.x())) * seen.normal;
-    if (blocked(seen, towards, kSkyReach)) {
-      sum += kBounce;
-    } else {
-      sum += towards.dot(ground_up_) < 0.0F ? kGroundLight : 1.0F;
+  for (int first = 0; first < count; first += static_cast<int>(kBundle)) {
+    const std::size_t rays = std::min(kBundle, static_cast<std::size_t>(count - first));
+    for (std::size_t k = 0; k < rays; ++k) {
+      const Eigen::Vector2f u = samples.pair(2, first + static_cast<int>(k));
+      const float radius = std::sqrt(u.x()), angle = 2.0F * std::numbers::pi_v<float> * u.y();
+      directions[k] = radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y) +
+                      std::sqrt(std::max(0.0F, 1.0F - u.x())) * seen.normal;
+    }
+    const std::uint32_t dark = solid_.blocked({origins.data(), rays}, {directions.data(), rays}, kSkyReach);
+    for (std::size_t k = 0; k < rays; ++k) {
+      if ((dark >> k & 1U) != 0) {
+        sum += kBounce;
+      } else {
+        sum += directions[k].dot(ground_up_) < 0.0F ? kGroundLight : 1.0F;
+      }
     }
   }
   return sum / static_cast<float>(count);

@@ -46,19 +46,22 @@ class Tracer {
  public:
   Tracer(const Drawing& drawing, const Camera& camera);
 
-  /// \param x, y  in the picture, -1 to 1, right and up
-  Seen look(float x, float y) const;
-  /// Whether one ray to the sun, of sample s, gets there. False on what faces away from it and on the wall.
-  bool sunlit(const Seen& seen, const Samples& samples, int s) const;
-  /// Mean light from the sky over the hemisphere, weighted by the cosine, by rays first to first + count; 1
-  /// in the open.
-  float skylight(const Seen& seen, const Samples& samples, int first, int count) const;
+  /// What lies at places in the picture, -1 to 1, right and up.
+  /// \param places, out  as many of both, at most kBundle, and best close to each other
+  void look(std::span<const Eigen::Vector2f> places, std::span<Seen> out) const;
+  /// Whether one ray to the sun gets there, of each place. False on what faces away from it and on the wall.
+  /// \param samples  of the sun's disc, in [0, 1); as many as seen and out, at most kBundle
+  void sunlit(std::span<const Seen> seen, std::span<const Eigen::Vector2f> samples,
+              std::span<std::uint8_t> out) const;
+  /// Mean light from the sky over the hemisphere, weighted by the cosine, by `count` rays; 1 in the open.
+  float skylight(const Seen& seen, const Samples& samples, int count) const;
   /// Linear light.
   /// \param sun  share of the sun that is seen, 0 to 1
   Vec3f shade(const Seen& seen, float sun, float sky) const;
 
  private:
-  bool blocked(const Seen& seen, const Vec3f& towards, float reach) const;
+  Seen describe(const Vec3f& direction, float height, const std::optional<Hit>& hit) const;
+  Vec3f to_sun(const Eigen::Vector2f& sample) const;
 
   RayScene solid_, over_;
   bool has_over_;

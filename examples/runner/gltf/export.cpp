@@ -1,5 +1,6 @@
 #include "gltf/export.h"
 
+#include "draw/solid.h"
 #include "gltf/surface.h"
 
 #include <tendril/bind/distortion.h>
@@ -41,7 +42,7 @@ class Maker {
   Maker(const Film& film, const bind::PolygonMesh& look, const GltfOptions& options)
       : film_(film), options_(options), surface_(make_surface(look)), middle_(middle_of(film.mesh().points)) {
     const auto up = Eigen::Quaterniond::FromTwoVectors(film.file().view.up, Vec3::UnitY());
-    place_ = {{"name", options.name}, {"translation", json_of(Vec3(up * middle_))}};
+    place_ = {{"translation", json_of(Vec3(up * middle_))}};
     if (up.vec().norm() > 0.0) place_["rotation"] = json_of(up);
   }
 
@@ -54,6 +55,9 @@ class Maker {
       times.push_back(static_cast<float>(m.time - film_.moments().front().time));
     times_ = glb_.add(times, "SCALAR", 1, Glb::none, true);
     const Json notes = options_.morph ? add_morph() : add_skin();
+    add_solids();
+    if (!channels_.empty())
+      glb_.json["animations"] = list({{"name", "run"}, {"samplers", samplers_}, {"channels", channels_}});
     glb_.json["asset"]["extras"] = {{"tendril", notes}};
     return {glb_.bytes(), notes};
   }
@@ -62,24 +66,35 @@ class Maker {
   Json& primitive() { return glb_.json["meshes"][0]["primitives"][0]; }
 
   void add_mesh() {
-    std::vector<float> points, normals;
-    for (const std::uint32_t i : surface_.point) append(points, film_.mesh().points[i] - middle_);
-    for (const Vec3f& n : surface_.normals) append(normals, n.cast<double>());
-    Json attributes{{"POSITION", glb_.add(points, "VEC3", 3, Glb::vertices, true)}};
-    if (!normals.empty()) attributes["NORMAL"] = glb_.add(normals, "VEC3", 3, Glb::vertices);
-    if (!surface_.colors.empty()) attributes["COLOR_0"] = add_colors();
-    Json primitive{{"attributes", attributes}, {"material", 0}};
-    if (surface_.triangles.empty())
-      primitive["mode"] = 0;  // points
-    else
-      primitive["indices"] = glb_.add(surface_.triangles, "SCALAR", 1, Glb::indices);
-    glb_.json["meshes"] = list({{"name", options_.name}, {"primitives", list(primitive)}});
+    std::vector<Vec3> points;
+    for (const std::uint32_t i : surface_.point) points.push_back(film_.mesh().points[i] - middle_);
+    glb_.json["meshes"] = list(mesh_of(options_.name, surface_, points, 0));
     add_material();
   }
 
-  std::size_t add_colors() {
+  /// A mesh of the file.
+  /// \param points  of the vertices
+  Json mesh_of(const std::string& name, const Surface& surface, const std::vector<Vec3>& points,
+               std::size_t material) {
+    std::vector<float> positions, normals, texture;
+    for (const Vec3& p : points) append(positions, p);
+    for (const Vec3f& n : surface.normals) append(normals, n.cast<double>());
+    for (const auto& t : surface.texture) texture.insert(texture.end(), t.begin(), t.end());
+    Json attributes{{"POSITION", glb_.add(positions, "VEC3", 3, Glb::vertices, true)}};
+    if (!normals.empty()) attributes["NORMAL"] = glb_.add(normals, "VEC3", 3, Glb::vertices);
+    if (!surface.colors.empty()) attributes["COLOR_0"] = add_colors(surface);
+    if (!texture.empty()) attributes["TEXCOORD_0"] = glb_.add(texture, "VEC2", 2, Glb::vertices);
+    Json primitive{{"attributes", attributes}, {"material", material}};
+    if (surface.triangles.empty())
+      primitive["mode"] = 0;  // points
+    else
+      primitive["indices"] = glb_.add(surface.triangles, "SCALAR", 1, Glb::indices);
+    return {{"name", name}, {"primitives", list(primitive)}};
+  }
+
+  std::size_t add_colors(const Surface& surface) {
     std::vector<std::uint16_t> colors;
-    for (const auto& color : surface_.colors)
+    for (const auto& color : surface.colors)
       for (const float part : color)
         colors.push_back(static_cast<std::uint16_t>(std::lround(part * 65535.0F)));
     return glb_.add(colors, "VEC4", 4, Glb::vertices, false, true);
@@ -94,6 +109,70 @@ class Maker {
     Json material{{"pbrMetallicRoughness", pbr}, {"doubleSided", true}};
     if (sheer) material["alphaMode"] = "BLEND";
     glb_.json["materials"] = list(material);
+  }
+
+  void channel(std::size_t node, const char* path, std::size_t output) {
+    channels_.push_back({{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
+    samplers_.push_back({{"input", times_}, {"interpolation", "LINEAR"}, {"output", output}});
+  }
+
+  /// Moves a node by a rigid motion of each moment.
+  void animate(std::size_t node, const std::vector<scene::SolidPose>& motions) {
+    std::vector<float> translation, rotation;
+    Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
+    for (const scene::SolidPose& motion : motions) {
+      append(translation, motion.position - middle_);
+      Eigen::Quaterniond q = Eigen::Quaterniond(motion.rotation).normalized();
+      if (q.dot(last) < 0.0) q.coeffs() = -q.coeffs();  // the short way round
+      last = q;
+      for (int c = 0; c < 4; ++c) rotation.push_back(static_cast<float>(q.coeffs()[c]));
+    }
+    channel(node, "translation", glb_.add(translation, "VEC3", 3));
+    channel(node, "rotation", glb_.add(rotation, "VEC4", 4));
+  }
+
+  /// The scene's solids, a mesh and a node each, below one node that turns the scene's up as the mesh's does.
+  void add_solids() {
+    const std::vector<scene::SceneBody>& bodies = film_.file().bodies;
+    if (bodies.empty()) return;
+    Json& nodes = glb_.json["nodes"];
+    Json all = place_;
+    all["name"] = "solids";
+    const std::size_t above = nodes.size();
+    glb_.json["scenes"][0]["nodes"].push_back(above);
+    nodes.push_back(all);
+    glb_.json["materials"].push_back(
+        {{"pbrMetallicRoughness",
+          {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}, {"baseColorFactor", {0.61, 0.52, 0.35, 1.0}}}},
+         {"doubleSided", true}});
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      nodes[above]["children"].push_back(nodes.size());
+      add_solid_node(bodies[i].name, bodies[i].shape, i);
+    }
+  }
+
+  void add_solid_node(const std::string& name, const scene::SolidShape& shape, std::size_t body) {
+    std::vector<scene::SolidPose> motions;
+    for (const Moment& m : film_.moments()) motions.push_back(m.bodies[body]);
+    const scene::SolidPose& first = motions.front();
+    bind::PolygonMesh mesh;
+    add_solid(shape, first, middle_, bind::bounding_diagonal(film_.mesh().points), mesh);
+    for (Vec3& p : mesh.points) p = first.rotation.transpose() * (p - first.position);
+    mesh.point_colors.clear();
+    const Surface surface = make_surface(mesh);
+    std::vector<Vec3> points;
+    for (const std::uint32_t i : surface.point) points.push_back(mesh.points[i]);
+    Json& meshes = glb_.json["meshes"];
+    const std::size_t node = glb_.json["nodes"].size();
+    glb_.json["nodes"].push_back({{"name", name},
+                                  {"mesh", meshes.size()},
+                                  {"translation", json_of(Vec3(first.position - middle_))},
+                                  {"rotation", json_of(Eigen::Quaterniond(first.rotation).normalized())}});
+    meshes.push_back(mesh_of(name, surface, points, 1));
+    const auto is_first = [&](const scene::SolidPose& m) {
+      return m.position == first.position && m.rotation == first.rotation;
+    };
+    if (!std::all_of(motions.begin(), motions.end(), is_first)) animate(node, motions);
   }
 
   Json add_skin() {
@@ -152,34 +231,21 @@ class Maker {
                                {"skeleton", 1},
                                {"joints", nodes},
                                {"extras", {{"tendril", notes}}}});
-    animate(skin, kFirst);
+    animate_joints(skin, kFirst);
   }
 
-  void animate(const Skin& skin, std::size_t first_node) {
+  void animate_joints(const Skin& skin, std::size_t first_node) {
     std::vector<std::vector<CurvePair>> posed;
     for (std::size_t m = 0; m < film_.moments().size(); ++m) posed.push_back(film_.posed(m));
-    Json samplers = Json::array(), channels = Json::array();
-    const auto channel = [&](std::size_t node, const char* path, std::size_t output) {
-      channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
-      samplers.push_back({{"input", times_}, {"interpolation", "LINEAR"}, {"output", output}});
-    };
     for (std::size_t k = 0; k < skin.joints.size(); ++k) {
       if (skin.joints[k].pair == SkinJoint::kStill) continue;
-      std::vector<float> translation, rotation;
-      Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
+      std::vector<scene::SolidPose> motions;
       for (const auto& pose : posed) {
         const JointMotion motion = motion_of(skin.joints[k], film_.rest(), pose);
-        append(translation, motion.to - middle_);
-        Eigen::Quaterniond q = Eigen::Quaterniond(motion.rotation).normalized();
-        if (q.dot(last) < 0.0) q.coeffs() = -q.coeffs();  // the short way round
-        last = q;
-        for (int c = 0; c < 4; ++c) rotation.push_back(static_cast<float>(q.coeffs()[c]));
+        motions.push_back({motion.rotation, motion.to});
       }
-      channel(first_node + k, "translation", glb_.add(translation, "VEC3", 3));
-      channel(first_node + k, "rotation", glb_.add(rotation, "VEC4", 4));
+      animate(first_node + k, motions);
     }
-    if (channels.empty()) return;
-    glb_.json["animations"] = list({{"name", "run"}, {"samplers", samplers}, {"channels", channels}});
   }
 
   /// The drawn triangles at rest, with the normals of their vertices, so that these can be turned.
@@ -214,16 +280,14 @@ class Maker {
     for (std::size_t m = 0; m < count; ++m) targets.push_back(add_target(rest, m));
     primitive()["targets"] = targets;
     glb_.json["meshes"][0]["weights"] = std::vector<float>(count, 0.0F);
-    place_["mesh"] = 0;
-    glb_.json["nodes"] = list(place_);
+    Json node = place_;
+    node["name"] = options_.name;
+    node["mesh"] = 0;
+    glb_.json["nodes"] = list(node);
     glb_.json["scenes"] = list({{"nodes", std::vector<int>{0}}});
     std::vector<float> weights(count * count, 0.0F);
     for (std::size_t m = 0; m < count; ++m) weights[m * count + m] = 1.0F;
-    const Json sampler{
-        {"input", times_}, {"interpolation", "LINEAR"}, {"output", glb_.add(weights, "SCALAR", 1)}};
-    const Json channel{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
-    glb_.json["animations"] =
-        list({{"name", "run"}, {"samplers", list(sampler)}, {"channels", list(channel)}});
+    channel(0, "weights", glb_.add(weights, "SCALAR", 1));
     return {{"kind", "morph targets"}, {"targets", count}};
   }
 
@@ -234,6 +298,7 @@ class Maker {
   Json place_;  ///< the node that takes the mesh's middle to where it is
   Glb glb_;
   std::size_t times_ = 0;
+  Json samplers_ = Json::array(), channels_ = Json::array();  ///< of the one animation
 };
 
 }  // namespace

@@ -4,8 +4,11 @@
 #include "draw/solid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <thread>
 
 namespace tendril::runner {
 namespace {
@@ -17,7 +20,7 @@ constexpr bind::Color kMark{201, 74, 40, 255};
 class Painter {
  public:
   Painter(const scene::SceneRun& run, const Camera& camera, const PictureOptions& options)
-      : run_(run), file_(run.file()), camera_(camera), threads_(options.threads) {
+      : run_(run), file_(run.file()), camera_(camera) {
     if (run.mesh() == nullptr) return;
     mesh_ = run.mesh()->mesh();
     if (!options.mark_ambiguous) return;
@@ -25,7 +28,8 @@ class Painter {
     for (const std::uint32_t i : run.mesh()->binding().report().ambiguous) mesh_.point_colors[i] = kMark;
   }
 
-  Picture paint(const scene::Snapshot& moment, const scene::ViewOptions& view) {
+  /// The same picture on any number of threads.
+  Picture paint(const scene::Snapshot& moment, const scene::ViewOptions& view, int threads) {
     Drawing drawing;
     if (!moment.points.empty()) {
       mesh_.points = moment.points;
@@ -48,7 +52,7 @@ class Painter {
         add_solid(file_.bodies[i].shape, moment.bodies[i], camera_.centre, camera_.size, all);
       drawing.mesh = &all;
     }
-    return draw(drawing, camera_, view, threads_);
+    return draw(drawing, camera_, view, threads);
   }
 
  private:
@@ -63,8 +67,43 @@ class Painter {
   const scene::SceneFile& file_;
   bind::PolygonMesh mesh_;  ///< moved from moment to moment
   Camera camera_;
-  int threads_;
 };
+
+/// Makes pictures 0 to count - 1, several at a time: trees of rays, normals and PNG are made on one thread
+/// each. Asks `go_on` on this thread, before each picture that it makes itself.
+/// \param make  by a painter of the thread's own, for the picture of an index, on so many threads
+/// \return  whether all were made
+bool for_each_picture(const Painter& painter, std::size_t count, int threads,
+                      const std::function<bool(double part)>& go_on,
+                      const std::function<void(Painter&, std::size_t, int)>& make) {
+  const int at_once = std::clamp(static_cast<int>(std::min<std::size_t>(count, 1024)), 1, threads);
+  const int each = threads / at_once;
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stopped{false};
+  std::vector<std::exception_ptr> failed(static_cast<std::size_t>(at_once));
+  const auto work = [&](int which) {
+    try {
+      Painter own = painter;
+      while (!stopped) {
+        if (which == 0 && !go_on(static_cast<double>(next) / static_cast<double>(count))) stopped = true;
+        const std::size_t k = stopped ? count : next++;
+        if (k >= count) break;
+        make(own, k, each);
+      }
+    } catch (...) {
+      failed[static_cast<std::size_t>(which)] = std::current_exception();
+      stopped = true;
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int which = 1; which < at_once; ++which) helpers.emplace_back(work, which);
+    work(0);
+  }
+  for (const std::exception_ptr& e : failed)
+    if (e) std::rethrow_exception(e);
+  return !stopped;
+}
 
 std::string caption(double time) {
   char text[32];
@@ -87,14 +126,14 @@ bool draw_run(const scene::SceneRun& run, Recorder& recorder, const PictureOptio
   Painter painter(run, recorder.camera(), options);
   const scene::ViewOptions small = panel_view(view);
   const auto& moments = recorder.panels();
-  std::vector<Picture> panels;
+  std::vector<Picture> panels(moments.size(), Picture(0, 0));
+  const auto paint = [&](Painter& own, std::size_t k, int threads) {
+    panels[k] = own.paint(moments[k], small, threads);
+  };
+  if (!for_each_picture(painter, panels.size(), options.threads, go_on, paint)) return false;
   std::vector<std::string> captions;
-  for (const scene::Snapshot& moment : moments) {
-    if (!go_on(static_cast<double>(panels.size()) / static_cast<double>(moments.size() + 2))) return false;
-    panels.push_back(painter.paint(moment, small));
-    captions.push_back(caption(moment.time));
-  }
-  const Picture last = painter.paint(recorder.last(), view);
+  for (const scene::Snapshot& moment : moments) captions.push_back(caption(moment.time));
+  const Picture last = painter.paint(recorder.last(), view, options.threads);
   if (!go_on(1.0)) return false;
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
   recorder.write("contact_sheet.png", png_bytes(contact_sheet(panels, captions, columns)));
@@ -106,12 +145,12 @@ std::vector<std::string> draw_moments(const scene::SceneRun& run, const Recorder
                                       const std::function<scene::Snapshot(std::size_t)>& moment,
                                       const PictureOptions& options,
                                       const std::function<bool(double part)>& go_on) {
-  Painter painter(run, recorder.camera(), options);
-  std::vector<std::string> out;
-  for (std::size_t m = 0; m < count; ++m) {
-    if (!go_on(static_cast<double>(m) / static_cast<double>(count))) return {};
-    out.push_back(png_bytes(painter.paint(moment(m), panel_view(run.file().view))));
-  }
+  const scene::ViewOptions view = panel_view(run.file().view);
+  std::vector<std::string> out(count);
+  const auto paint = [&](Painter& own, std::size_t m, int threads) {
+    out[m] = png_bytes(own.paint(moment(m), view, threads));
+  };
+  if (!for_each_picture({run, recorder.camera(), options}, count, options.threads, go_on, paint)) return {};
   return out;
 }
 
