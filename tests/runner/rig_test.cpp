@@ -82,6 +82,57 @@ double volume(const PolygonMesh& mesh) {
   return six / 6.0;
 }
 
+/// A bar from one point to another, with nothing of a limb but its ends.
+RigCurve bar(const Vec3& from, const Vec3& to) {
+  return {"bar", {from, 0.5 * from + 0.5 * to, to}, {from, from, from}, {}};
+}
+
+void add_prism(double half_width, const Vec3& from, const Vec3& to, PolygonMesh& mesh) {
+  const double h = half_width;
+  PolygonMesh part = prism({{-h, -h}, {h, -h}, {h, h}, {-h, h}}, (to - from).norm(), 1);
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), to - from);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  const auto corners = static_cast<std::uint32_t>(mesh.corners.size());
+  for (const Vec3& p : part.points) mesh.points.emplace_back(from + turn * p);
+  for (const std::uint32_t corner : part.corners) mesh.corners.push_back(first + corner);
+  for (std::size_t f = 1; f < part.face_begin.size(); ++f)
+    mesh.face_begin.push_back(corners + part.face_begin[f]);
+}
+
+/// A column on two legs, with three thin arms that reach as far to one side: on these it would fall over.
+TEST(RigStance, IsOneThatDoesNotFallOver) {
+  PolygonMesh mesh;
+  add_prism(0.15, Vec3(0, 0, 0), Vec3(0, 0, 1), mesh);
+  std::vector<RigCurve> curves{bar({0.1, 0, 0.5}, {0.1, 0, 0}), bar({-0.1, 0, 0.5}, {-0.1, 0, 0})};
+  for (const double z : {0.4, 0.6, 0.8}) {
+    add_prism(0.005, Vec3(0, -0.15, z), Vec3(0, -1, z), mesh);
+    curves.push_back(bar({0, -0.15, z}, {0, -1, z}));
+  }
+  runner::Body body;
+  body.volume = volume(mesh);
+  ASSERT_GT(body.volume, 0.08);
+  body.first_skin.resize(curves.size());
+  body.last_skin.resize(curves.size());
+  EXPECT_EQ(runner::stand(mesh, curves, body, Vec3::UnitY()).feet.size(), 3U);
+  const runner::Stance stance = runner::guess_stance(mesh, curves, body);
+  EXPECT_EQ(runner::direction_name(stance.up), "z");
+  EXPECT_EQ(stance.feet.size(), 2U);
+  // With arms thick enough to rest on, the three of them are the better feet.
+  PolygonMesh thick = mesh;
+  for (const double z : {0.4, 0.6, 0.8}) add_prism(0.09, Vec3(0, -0.15, z), Vec3(0, -1, z), thick);
+  EXPECT_EQ(runner::direction_name(runner::guess_stance(thick, curves, body).up), "y");
+}
+
+TEST(RigSections, AreTheSameForAnyNumberOfThreads) {
+  const PolygonMesh tube = prism(ellipse_outline(0.3, 0.2, 0.4, 64), 4.0, 80);
+  std::vector<RigCurve> curves{straight(0.2, 3.8, 19)}, again = curves;
+  const runner::Body one = runner::measure_body(tube, curves, 1), many = runner::measure_body(tube, again, 5);
+  for (std::size_t i = 0; i < one.sections[0].size(); ++i) {
+    EXPECT_EQ(one.sections[0][i].a, many.sections[0][i].a);
+    EXPECT_EQ(one.sections[0][i].b, many.sections[0][i].b);
+  }
+}
+
 TEST(RigSections, OfAnEllipticTubeAreItsOwn) {
   // A polygon of n corners has sin(2 pi / n) / (2 pi / n) of the ellipse's area: 1 - 4e-4 at 128.
   const PolygonMesh tube = prism(ellipse_outline(0.1, 0.2, 0.0, 128), 3.0, 40);

@@ -116,7 +116,9 @@ std::string command_of(const Options& options) {
 int rig(const Options& options) {
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
-  const Rig rig = rig_mesh(mesh, options.mesh, options.axes, options.rig);
+  RigOptions how = options.rig;
+  how.threads = thread_count(options.threads);
+  const Rig rig = rig_mesh(mesh, options.mesh, options.axes, how);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_rig(rig, options.mesh, options.out, command_of(options));
   if (!options.picture.empty()) draw_rig(options, mesh, rig);
@@ -156,7 +158,7 @@ Command rig_command(CLI::App& parent) {
   app->add_option("--picture", options->picture, "PNG file: curves, sections and what is held");
   app->add_option("--yaw", options->view.yaw, "degrees, of the picture")->capture_default_str();
   app->add_option("--pitch", options->view.pitch, "degrees, of the picture")->capture_default_str();
-  app->add_option("--threads", options->threads, "threads for the picture, 0 for all");
+  app->add_option("--threads", options->threads, "threads, 0 for all");
   app->add_flag("--json", options->json, "print JSON");
   return {app, [options] { return rig(*options); }};
 }

@@ -38,7 +38,9 @@ bool is_mesh(const std::string& path) {
 /// A mesh in place of a scene gets one, as `tendril rig` makes it, beside what the run writes.
 std::string scene_of_mesh(const Options& options) {
   const std::string out = options.out + "/scene.json";
-  const Rig rig = rig_mesh(read_mesh(options.scene), options.scene, {}, {});
+  RigOptions how;
+  how.threads = thread_count(options.threads);
+  const Rig rig = rig_mesh(read_mesh(options.scene), options.scene, {}, how);
   make_folder(options.out);
   write_rig(rig, options.scene, out, "tendril run " + options.scene);
   if (!options.json) tell(rig);

@@ -168,7 +168,7 @@ Rig make_rig(const bind::PolygonMesh& mesh, std::vector<RigCurve> curves, const 
     throw InvalidInput("mesh", "it is " + shortest(large) + " large", "a largest extent from 1e-60 to 1e60");
   Rig rig;
   rig.curves = std::move(curves);
-  rig.body = measure_body(mesh, rig.curves);
+  rig.body = measure_body(mesh, rig.curves, options.threads);
   require_slender(rig);
   rig.up_guessed = options.up.empty();
   rig.stance = rig.up_guessed ? guess_stance(mesh, rig.curves, rig.body)

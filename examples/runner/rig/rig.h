@@ -18,6 +18,7 @@ struct RigOptions {
   std::string up;    ///< x, y, z, -x, -y, -z; empty: guessed
   /// Mean speed [m/s]; by default 8, or what pushes it aside by 2 % of its height. 0 for none.
   std::optional<double> wind;
+  int threads = 1;  ///< 1 to 256; the same rig for any number
 };
 
 /// A mesh on its axes, ready to be written as a scene. Lengths are in the mesh's own unit, which is `unit`

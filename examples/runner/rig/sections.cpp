@@ -82,8 +82,8 @@ double mean_edge(const std::vector<Vec3>& points) {
 /// The mesh in the axial spaces of the axes.
 class Cutter {
  public:
-  Cutter(const bind::PolygonMesh& mesh, const std::vector<Axis>& axes)
-      : binding_(pairs_of(axes), mesh, {.mode = bind::BindMode::nearest}) {
+  Cutter(const bind::PolygonMesh& mesh, const std::vector<Axis>& axes, int threads)
+      : binding_(pairs_of(axes), mesh, {.mode = bind::BindMode::nearest, .threads = threads}) {
     for (const Axis& axis : axes) moments_.emplace_back(kPlanes * (axis.parameters.size() - 1));
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       node_.push_back(axes[binding_.pair_of(i)].node_at(binding_.records()[i].t));
@@ -296,7 +296,7 @@ void make_positive(std::vector<std::vector<Moments>>& moments) {
 
 }  // namespace
 
-Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves) {
+Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves, int threads) {
   std::vector<Axis> axes;
   double edge = std::numeric_limits<double>::infinity();
   for (const RigCurve& curve : curves) {
@@ -309,7 +309,7 @@ Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves) 
   const bind::PolygonMesh fine = split_long_edges(mesh, edge);
   Body body;
   if (bind::inspect(mesh).is_closed()) body.volume = volume_of(fine);
-  Cutter cutter(fine, axes);
+  Cutter cutter(fine, axes, threads);
   collect_skin(fine, cutter, curves, body);
   std::vector<std::vector<Moments>> moments = std::move(cutter).moments();
   make_positive(moments);

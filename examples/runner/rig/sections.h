@@ -47,6 +47,7 @@ struct Body {
 ///
 /// InvalidInput naming a curve that has no skin and no radius of its own, or whose frames do not carry on.
 /// Cost: a projection a point.
-Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves);
+/// \param threads  1 to 256; the same bits for any number
+Body measure_body(const bind::PolygonMesh& mesh, std::vector<RigCurve>& curves, int threads = 1);
 
 }  // namespace tendril::runner

@@ -1,16 +1,22 @@
 #include "rig/stance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tendril::runner {
 namespace {
 
 constexpr double kNearGround = 0.15, kOnGround = 0.05;  ///< of the height
 constexpr double kDownward = 0.5;                       ///< sine of the least angle below the horizon
-constexpr double kLeg = 0.3;                            ///< of the height: what of a limb says that it stands
-constexpr double kOneFoot = 0.12;                       ///< of the height: toes this near are of one foot
+/// Of the height: a limb stands that comes down from one of these lengths back, some have long toes.
+constexpr std::array kLegs{0.3, 0.4, 0.5};
+constexpr double kOneFoot = 0.12;  ///< of the height: toes this near are of one foot
+constexpr double kSafe = 0.02;     ///< of the height: so far within what it rests on the centre of mass is
+constexpr double kStands = 4.0;    ///< feet that this counts for
+constexpr int kWays = 72;          ///< level directions in which it could fall over
 
 std::vector<CurveEnd> ends_of(const std::vector<RigCurve>& curves) {
   std::vector<CurveEnd> out;
@@ -60,11 +66,16 @@ const Vec3& tip_of(const std::vector<RigCurve>& curves, const CurveEnd& end) {
 /// near it, a foot out of line or a tail, if its very end does.
 bool stands(const std::vector<RigCurve>& curves, const CurveEnd& end, double above, const Stance& stance) {
   if (above > kNearGround * stance.height) return false;
+  const auto is_above = [&](const Vec3& from) {
+    return (tip_of(curves, end) - from).normalized().dot(stance.up) < -kDownward;
+  };
+  if (above < kOnGround * stance.height)
+    return std::any_of(kLegs.begin(), kLegs.end(), [&](double length) {
+      return is_above(back_from(curves, end, length * stance.height));
+    });
   const RigCurve& curve = curves[end.curve];
   const std::size_t n = curve.points.size() - 1, two = std::min<std::size_t>(2, n);
-  const Vec3 from = above < kOnGround * stance.height ? back_from(curves, end, kLeg * stance.height)
-                                                      : curve.points[end.last ? n - two : two];
-  return (tip_of(curves, end) - from).normalized().dot(stance.up) < -kDownward;
+  return is_above(curve.points[end.last ? n - two : two]);
 }
 
 /// Feet, those of toes once.
@@ -78,6 +89,41 @@ std::size_t count_feet(const std::vector<RigCurve>& curves, const Stance& stance
     if (!toe) found.push_back(tip);
   }
   return found.size();
+}
+
+/// Of a body of one density; of the skin where it is open.
+Vec3 centre_of_mass(const bind::PolygonMesh& mesh, bool closed) {
+  const Vec3& origin = mesh.points[mesh.corners[0]];
+  double whole = 0.0;
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [i, j, k] : bind::fan_triangles(mesh)) {
+    const Vec3 a = mesh.points[i] - origin, b = mesh.points[j] - origin, c = mesh.points[k] - origin;
+    // A tetrahedron with its fourth corner at the origin, or a triangle.
+    const double part = closed ? a.dot(b.cross(c)) : (b - a).cross(c - a).norm();
+    whole += part;
+    sum += part * (a + b + c) / (closed ? 4.0 : 3.0);
+  }
+  return whole != 0.0 ? Vec3(origin + sum / whole) : origin;
+}
+
+/// How far a body that rests on the points within kOnGround of the ground is from falling over, over its
+/// height: its centre of mass from the edge of their convex hull, seen from above; negative outside. The hull
+/// reaches h(d) = max (p - centre) d along a level direction d, and the edge is where h is least.
+double safety(const bind::PolygonMesh& mesh, const Vec3& centre, const Stance& stance) {
+  const Vec3 x = stance.up.unitOrthogonal(), y = stance.up.cross(x);
+  std::vector<Eigen::Vector2d> rests_on;
+  for (const Vec3& p : mesh.points)
+    if (p.dot(stance.up) <= stance.ground + kOnGround * stance.height)
+      rests_on.emplace_back((p - centre).dot(x), (p - centre).dot(y));
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kWays; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kWays;
+    const Eigen::Vector2d way(std::cos(angle), std::sin(angle));
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& p : rests_on) reach = std::max(reach, p.dot(way));
+    least = std::min(least, reach);
+  }
+  return least / stance.height;
 }
 
 }  // namespace
@@ -105,11 +151,13 @@ std::string direction_name(const Vec3& up) {
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   const std::pair<Vec3, double> choices[]{{y, 2.5}, {z, 2.0}, {x, 0.0}, {-y, 0.0}, {-z, 0.0}, {-x, 0.0}};
+  const Vec3 centre = centre_of_mass(mesh, body.volume > 0.0);
   Stance best;
   double most = -1.0;
   for (const auto& [up, bonus] : choices) {
     Stance stance = stand(mesh, curves, body, up);
-    const double count = static_cast<double>(count_feet(curves, stance)) + bonus;
+    double count = static_cast<double>(count_feet(curves, stance)) + bonus;
+    if (safety(mesh, centre, stance) > kSafe) count += kStands;
     if (count > most) most = count, best = std::move(stance);
   }
   return best;

@@ -20,13 +20,14 @@ struct Stance {
 };
 
 /// How the body stands where `up` is up. A foot's skin comes within 5 % of the height to the lowest point,
-/// and the limb, up to 30 % of the height from its end, goes down by more than 30 degrees; or within 15 %,
+/// and the limb, seen from 30 to 50 % of the height back, goes down by more than 30 degrees; or within 15 %,
 /// and its last two edges do.
 Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body,
              const Vec3& up);
 
-/// The direction among x, y, z and their opposites in which the most feet are below; y counts two and a half
-/// feet more than it has, z two, as most meshes have one of these up.
+/// The direction among x, y, z and their opposites in which the most feet are below and it does not fall over:
+/// that its centre of mass is above what it rests on counts as four feet, y as two and a half, z as two, since
+/// most meshes have one of these up.
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body);
 
 /// Such a direction as options name it: "y", "-z".
