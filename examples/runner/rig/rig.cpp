@@ -59,12 +59,18 @@ CurveEnd root(const std::vector<RigCurve>& curves, const Vec3& up) {
   return {0, curves[0].points.back().dot(up) < curves[0].points.front().dot(up)};
 }
 
+/// What it stands on: legs, or else ends that lie on the ground, as those of what sits or has wheels.
+const std::vector<CurveEnd>& feet_of(const Stance& stance) {
+  return stance.feet.empty() ? stance.on_ground : stance.feet;
+}
+
 std::vector<CurveEnd> ends_to_hold(const Rig& rig, const std::string& hold) {
   if (hold == "feet") {
-    if (rig.stance.feet.empty())
+    const std::vector<CurveEnd>& feet = feet_of(rig.stance);
+    if (feet.empty())
       throw InvalidInput("--hold", "nothing of the mesh stands on the ground",
                          "middle, root, lowest, a curve's name, or another --up");
-    return rig.stance.feet;
+    return feet;
   }
   if (hold == "root") return {root(rig.curves, rig.stance.up)};
   if (hold == "lowest") return {rig.stance.lowest};
@@ -112,7 +118,7 @@ Vec3 wind_direction(const std::vector<RigCurve>& curves, const Vec3& up) {
 }
 
 void hold(const RigOptions& options, Rig& rig) {
-  rig.held_as = !options.hold.empty() ? options.hold : rig.stance.feet.empty() ? "middle" : "feet";
+  rig.held_as = !options.hold.empty() ? options.hold : feet_of(rig.stance).empty() ? "middle" : "feet";
   if (rig.held_as == "middle") {
     rig.held.push_back(middle(rig.curves[0]));
     return;

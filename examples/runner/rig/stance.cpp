@@ -131,13 +131,14 @@ double safety(const bind::PolygonMesh& mesh, const Vec3& centre, const Stance& s
 Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body,
              const Vec3& up) {
   const double ground = lowest_of(mesh.points, up);
-  Stance out{up, {}, {0, true}, -lowest_of(mesh.points, -up) - ground, ground};
+  Stance out{up, {}, {}, {0, true}, -lowest_of(mesh.points, -up) - ground, ground};
   double lowest = std::numeric_limits<double>::infinity();
   for (const CurveEnd& end : ends_of(curves)) {
     const std::vector<Vec3>& skin = (end.last ? body.last_skin : body.first_skin)[end.curve];
     const double low = skin.empty() ? tip_of(curves, end).dot(up) : lowest_of(skin, up);
     if (low < lowest) lowest = low, out.lowest = end;
     if (stands(curves, end, low - ground, out)) out.feet.push_back(end);
+    if (low - ground <= kOnGround * out.height) out.on_ground.push_back(end);
   }
   return out;
 }

@@ -12,11 +12,12 @@ struct CurveEnd {
 
 /// How a body stands.
 struct Stance {
-  Vec3 up = Vec3::UnitY();     ///< unit
-  std::vector<CurveEnd> feet;  ///< ends that point down and whose skin is near the lowest
-  CurveEnd lowest{};           ///< whose skin is the lowest
-  double height = 0.0;         ///< of the mesh along `up`
-  double ground = 0.0;         ///< coordinate of its lowest point along `up`
+  Vec3 up = Vec3::UnitY();          ///< unit
+  std::vector<CurveEnd> feet;       ///< ends that point down and whose skin is near the lowest
+  std::vector<CurveEnd> on_ground;  ///< ends whose skin is, whichever way they point
+  CurveEnd lowest{};                ///< whose skin is the lowest
+  double height = 0.0;              ///< of the mesh along `up`
+  double ground = 0.0;              ///< coordinate of its lowest point along `up`
 };
 
 /// How the body stands where `up` is up. A foot's skin comes within 5 % of the height to the lowest point,
