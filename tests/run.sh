@@ -30,10 +30,9 @@ export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in fold
 options=(-DTENDRIL_TESTS=ON)
 # One job compiles the benches too, so that they keep up with the library; from nothing it does so the fast way, and a
 # folder that a person works in stays as it is.
-if [ "$preset" = release ]; then
-  options+=(-DTENDRIL_BENCH=ON)
-  if [ ! -e build/CMakeCache.txt ]; then options+=(-DTENDRIL_UNITY=ON); fi
-fi
+folder=build/$preset
+if [ "$preset" = release ]; then options+=(-DTENDRIL_BENCH=ON) folder=build; fi
+if [ ! -e "$folder/CMakeCache.txt" ]; then options+=(-DTENDRIL_UNITY=ON); fi
 cmake --preset "$preset" -Wno-dev "${options[@]}"
 cmake --build --preset "$preset" "${targets[@]}"
 ctest --preset "$preset" --label-regex "$labels" --parallel "$(nproc)" --no-tests=error </dev/null
