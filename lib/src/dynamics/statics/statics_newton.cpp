@@ -134,7 +134,8 @@ StaticNewton::Outcome StaticNewton::find(StaticState& at, int most_unstable) {
   const Outcome outcome = approach(at);
   if (outcome == Outcome::found && balanced(at)) return outcome;
   if (outcome != Outcome::found) {
-    if (outcome != Outcome::stalled || !seeks_stable_) return outcome;
+    if (outcome != Outcome::stalled) return outcome;
+    if (!seeks_stable_) return without_resistance(at);
     at = best_;
   }
   if (tighten(at)) return Outcome::found;
@@ -144,6 +145,19 @@ StaticNewton::Outcome StaticNewton::find(StaticState& at, int most_unstable) {
   factored_ = factored_ && !cautious;
   cautious_ = cautious;
   return last;
+}
+
+/// Why a search along a branch stalled: along what nothing resists, steps are as long as rounding makes them.
+StaticNewton::Outcome StaticNewton::without_resistance(const StaticState& at) {
+  if (balanced(at)) return Outcome::found;
+  Eigen::SparseMatrix<double> k;
+  if (!problem_.tangent(at, k).ok()) return Outcome::stalled;
+  tangent_.set(k, false);
+  factored_ = false;
+  shift_ = kLeastShift * neutral_threshold(problem_.coordinates(), tangent_);
+  if (!tangent_.factorise(shift_)) return Outcome::stalled;
+  const Eigen::VectorXd x = -solve(at.residual);
+  return x.allFinite() && unheld(at, x) ? fail_to_balance(at, x) : Outcome::stalled;
 }
 
 StaticNewton::Outcome StaticNewton::settle(StaticState& at) {

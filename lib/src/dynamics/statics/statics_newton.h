@@ -62,6 +62,7 @@ class StaticNewton {
   void polish(StaticState& at);
   bool unheld(const StaticState& at, const Eigen::VectorXd& x);
   Outcome fail_to_balance(const StaticState& at, const Eigen::VectorXd& x);
+  Outcome without_resistance(const StaticState& at);
   bool gains_nothing(const StaticState& at, const Step& step) const;
   Outcome fail(Outcome outcome, std::string reason);
 
