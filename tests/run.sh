@@ -28,7 +28,7 @@ bash .cmake/cgal-meshes.sh build/cgal-meshes
 bash .cmake/npm.sh tests/runner/films build/npm
 export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
 options=(-DTENDRIL_TESTS=ON)
-# One job compiles the benches too, so that they keep up with the library; from nothing it does so the fast way, and a
+# One job compiles the benches too, so that they keep up with the library. From nothing all compiles the fast way; a
 # folder that a person works in stays as it is.
 folder=build/$preset
 if [ "$preset" = release ]; then options+=(-DTENDRIL_BENCH=ON) folder=build; fi
