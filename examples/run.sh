@@ -6,8 +6,10 @@ cd "$(dirname "$0")/.."
 . .cmake/packages.sh
 need_packages "${core_packages[@]}" "${bind_packages[@]}" "${runner_packages[@]}" "${npm_packages[@]}"
 bash .cmake/cgal-meshes.sh build/cgal-meshes
-# A build folder keeps the choice whether tests are built; a new one needs none for this.
-if [ -f build/CMakeCache.txt ]; then cmake --preset release -Wno-dev; else cmake --preset release -Wno-dev -DTENDRIL_TESTS=OFF; fi
+# A build folder keeps its choices; a new one needs no tests for this, and compiles the fast way.
+new=()
+[ -f build/CMakeCache.txt ] || new=(-DTENDRIL_TESTS=OFF -DTENDRIL_UNITY=ON)
+cmake --preset release -Wno-dev "${new[@]}"
 cmake --build --preset release --target tendril
 mkdir -p out
 build/bin/tendril rig build/cgal-meshes/diplodocus.off --size 1.5 --wind 12 --out out/scene.json --picture out/rig.png </dev/null
