@@ -8,7 +8,8 @@
 namespace tendril::runner {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr double kDrag = 1.2;       // of a rod across the wind
 constexpr double kToe = 0.2;        // of the body's height: what is shorter is no leg
 constexpr double kLegHeight = 0.4;  // of the body's height: what of a curve is leg
@@ -23,8 +24,8 @@ struct Beam {
     const double a = 0.5 * (sections[edge].a + sections[edge + 1].a);
     const double b = 0.5 * (sections[edge].b + sections[edge + 1].b);
     const double along = (curve.points[edge + 1] - curve.points[edge]).norm();
-    const double least = kPi / 4.0 * a * b * std::min(a, b) * std::min(a, b);
-    length += along, volume += kPi * a * b * along;
+    const double least = pi / 4.0 * a * b * std::min(a, b) * std::min(a, b);
+    length += along, volume += pi * a * b * along;
     inertia += least * along, give += along / least;
   }
 };
@@ -73,7 +74,7 @@ double least_carried(const std::vector<Beam>& legs, double young, double weight)
   double least = std::numeric_limits<double>::infinity();
   for (const Beam& leg : legs)
     least = std::min(least,
-                     kPi * kPi * young / (leg.give * leg.length) * static_cast<double>(legs.size()) / weight);
+                     pi * pi * young / (leg.give * leg.length) * static_cast<double>(legs.size()) / weight);
   return least;
 }
 
@@ -110,7 +111,7 @@ LoadEstimate estimate_load(const std::vector<RigCurve>& curves, const Body& body
     const Beam limb = beam_of(curves[k], body.sections[k]);
     const double mass = density * limb.volume * part, length = limb.length * part;
     const double compliance = mass * std::pow(length, 3) * limb.length / (young * limb.inertia);
-    const double period = 2.0 * kPi / 3.516 * std::sqrt(compliance);
+    const double period = 2.0 * pi / 3.516 * std::sqrt(compliance);
     if (period > out.period) out.period = period, out.slowest = curves[k].name;
     // Only what lies across gravity bends.
     const Vec3 chord = (curves[k].points.back() - curves[k].points.front()).normalized();
@@ -133,7 +134,7 @@ double volume_of_rods(const std::vector<RigCurve>& curves, const Body& body) {
 
 double slenderness(const std::vector<RigCurve>& curves, const Body& body) {
   const Beam first = beam_of(curves[0], body.sections[0]);
-  return first.length / (2.0 * std::sqrt(first.volume / (kPi * first.length)));
+  return first.length / (2.0 * std::sqrt(first.volume / (pi * first.length)));
 }
 
 }  // namespace tendril::runner

@@ -1,20 +1,15 @@
 #include "study/advice.h"
 
-#include <cstdio>
-
+#include "study/svg.h"
 #include "write/json_output.h"
 
 namespace tendril::runner {
 namespace {
 
+using svg::number;
+
 /// So much more may the automatic choice cost than the best fixed one.
 constexpr double kWorthTheChoice = 1.3;
-
-std::string number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string as_scene_says(const Setting& setting) {
   return std::string("\"method\": \"") + tendril::to_string(setting.method) + "\", \"" +

@@ -1,11 +1,15 @@
 #include "study/output.h"
 
+#include "study/svg.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace tendril::runner {
 namespace {
+
+using svg::number;
 
 OrderedJson finite_or_null(double value) {
   return std::isfinite(value) ? OrderedJson(value) : OrderedJson();
@@ -55,12 +59,6 @@ OrderedJson to_json(const Reference& reference) {
           {"second", to_json(reference.second.setting)},
           {"position_gap", finite_or_null(reference.gap.position)},
           {"director_gap", finite_or_null(reference.gap.director)}};
-}
-
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 /// \param before  the line above, whose reason is not said again
