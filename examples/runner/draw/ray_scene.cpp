@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <stdexcept>
 
 namespace tendril::runner {
@@ -64,6 +65,13 @@ void attach_strand(RTCDevice device, RTCScene scene, const Strand& strand, unsig
     for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = static_cast<std::uint32_t>(i);
   }
   attach(scene, geometry, id);
+}
+
+/// Embree keeps some of its memory in lists across devices, whose locks no tool sees: one thread at a time makes
+/// or ends a scene.
+std::mutex& making() {
+  static std::mutex out;
+  return out;
 }
 
 struct alignas(32) Lanes {
@@ -127,15 +135,15 @@ struct RayScene::Implementation {
 RayScene::RayScene(const bind::PolygonMesh* mesh, std::span<const Strand> strands, const Vec3& centre,
                    double size)
     : self_(std::make_unique<Implementation>()) {
+  const bool meshed = mesh != nullptr && mesh->face_count() > 0;
+  if (meshed) self_->shape = make_shape(*mesh, centre, size);
+  const std::lock_guard lock(making());
   // One thread builds, so that the tree, and with it the choice between equal hits, is always the same.
   self_->device.reset(rtcNewDevice("threads=1,set_affinity=0"));
   if (!self_->device) throw std::runtime_error("Embree gives no device");
   self_->scene.reset(rtcNewScene(self_->device.get()));
   rtcSetSceneFlags(self_->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  if (mesh != nullptr && mesh->face_count() > 0) {
-    self_->shape = make_shape(*mesh, centre, size);
-    attach_shape(self_->device.get(), self_->scene.get(), self_->shape);
-  }
+  if (meshed) attach_shape(self_->device.get(), self_->scene.get(), self_->shape);
   unsigned id = 1;
   for (const Strand& strand : strands) {
     attach_strand(self_->device.get(), self_->scene.get(), strand, id++, centre, size);
@@ -144,15 +152,18 @@ RayScene::RayScene(const bind::PolygonMesh* mesh, std::span<const Strand> strand
   rtcCommitScene(self_->scene.get());
 }
 
-RayScene::~RayScene() = default;
+RayScene::~RayScene() {
+  const std::lock_guard lock(making());
+  self_->scene.reset();
+  self_->device.reset();
+}
 
 void RayScene::nearest(const Vec3f& origin, std::span<const Vec3f> directions,
                        std::span<std::optional<Hit>> hits) const {
   RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
   const Lanes lanes = first_lanes(directions.size());
   RTCRayHit8 found{};
-  for (std::size_t k = 0; k < directions.size(); ++k)
-    set_ray(found.ray, k, origin, directions[k], 1e30F);
+  for (std::size_t k = 0; k < directions.size(); ++k) set_ray(found.ray, k, origin, directions[k], 1e30F);
   std::fill_n(found.hit.geomID, kBundle, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(found.hit.instID[0], kBundle, RTC_INVALID_GEOMETRY_ID);
   rtcIntersect8(lanes.valid.data(), self_->scene.get(), &context, &found);

@@ -104,8 +104,7 @@ void Tracer::sunlit(std::span<const Seen> seen, std::span<const Eigen::Vector2f>
     of[count++] = k;
   }
   if (count == 0) return;
-  const std::uint32_t dark =
-      solid_.blocked({origins.data(), count}, {directions.data(), count}, 1e30F);
+  const std::uint32_t dark = solid_.blocked({origins.data(), count}, {directions.data(), count}, 1e30F);
   for (std::size_t j = 0; j < count; ++j) out[of[j]] = (dark >> j & 1U) == 0 ? 1 : 0;
 }
 

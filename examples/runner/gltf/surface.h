@@ -16,9 +16,9 @@ struct Surface {
   std::vector<std::uint32_t> triangles;       ///< three vertices each
 };
 
-/// Polygons become fans; a point is as many vertices as it has different normals, colors and texture
-/// coordinates; those of corners go before those of points. Normals are those of the mesh, and where it has none
-/// those that pictures are drawn with. Points of no face are left
+/// Polygons become fans; a point is as many vertices as it has different normals, colors and
+/// texture coordinates; those of corners go before those of points. Normals are those of the mesh, and where
+/// it has none those that pictures are drawn with. Points of no face are left
 /// out, unless there are no faces.
 /// \param mesh  valid
 Surface make_surface(const bind::PolygonMesh& mesh);

@@ -14,8 +14,8 @@ struct RigOptions {
   /// The mesh's largest extent [m]; by default one metre, or what it takes for legs of the material to carry
   /// three times their share of the weight and for no limb to sag by more than 15 %.
   std::optional<double> size;
-  /// feet (legs, or else what lies on the ground), middle, root, lowest, or a curve's name; empty: feet, or else
-  /// middle
+  /// feet (legs, or else what lies on the ground), middle, root, lowest, or a curve's name; empty: feet, or
+  /// else middle
   std::string hold;
   std::string up;  ///< x, y, z, -x, -y, -z; empty: guessed
   /// Mean speed [m/s]; by default 8, or what pushes it aside by 2 % of its height. 0 for none.

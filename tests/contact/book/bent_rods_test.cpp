@@ -151,7 +151,8 @@ TEST(ContactBook, ARodBentBackBetweenPlates) {
   EXPECT_NEAR(fine.curvature / 2.396280, 1.0, 1e-3);
 }
 
-/// A heavy rod on a floor, lifted at one end by delta: l = (24 B delta / q)^(1/4) comes off, and q l / 2 lifts.
+/// A heavy rod on a floor, lifted at one end by delta: l = (24 B delta / q)^(1/4) comes off, and q l / 2
+/// lifts it.
 double lift(int edges) {
   const double delta = 1e-3, free = 0.5, weight = 24.0 * delta / std::pow(free, 4);
   std::vector<Vec3> points;
