@@ -67,8 +67,8 @@ void attach_strand(RTCDevice device, RTCScene scene, const Strand& strand, unsig
   attach(scene, geometry, id);
 }
 
-/// Embree keeps some of its memory in lists across devices, whose locks no tool sees: one thread at a time makes
-/// or ends a scene.
+/// Embree keeps some of its memory in lists across devices, whose locks no tool sees: one thread at a time
+/// makes or ends a scene.
 std::mutex& making() {
   static std::mutex out;
   return out;

@@ -27,8 +27,8 @@ Stance stand(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves,
              const Vec3& up);
 
 /// The direction among x, y, z and their opposites in which the most feet are below and it does not fall
-/// over: that its centre of mass is above what it rests on counts as four feet, y as two and a half, z as two,
-/// since most meshes have one of these up.
+/// over: that its centre of mass is above what it rests on counts as four feet, y as two and a half, z as
+/// two, since most meshes have one of these up.
 Stance guess_stance(const bind::PolygonMesh& mesh, const std::vector<RigCurve>& curves, const Body& body);
 
 /// Such a direction as options name it: "y", "-z".
