@@ -21,8 +21,8 @@ struct GltfFile {
 /// (fit_skin) whose joints have translations and rotations, one a moment and linear in between, or by morph
 /// targets; and the scene's solids, each a mesh on a node that moves as they do. Times begin with 0, the
 /// scene's up is the file's +y, and vertices are about the mesh's middle, where single precision is best; the
-/// unit of length stays the scene's. The file's asset and skin have `extras` with the number of joints and the
-/// largest distance of the skinned points from the exact ones.
+/// unit of length stays the scene's. The file's asset and skin have `extras` with the number of joints and
+/// the largest distance of the skinned points from the exact ones.
 /// \param film  of a scene with a mesh, at least one moment
 /// \param look  the mesh as it was read, for its normals, colors and texture
 GltfFile make_gltf(const Film& film, const bind::PolygonMesh& look, const GltfOptions& options);
