@@ -84,11 +84,9 @@ bool for_each_picture(const Painter& painter, std::size_t count, int threads,
   const auto work = [&](int which) {
     try {
       Painter own = painter;
-      while (!stopped) {
-        if (which == 0 && !go_on(static_cast<double>(next) / static_cast<double>(count))) stopped = true;
-        const std::size_t k = stopped ? count : next++;
-        if (k >= count) break;
-        make(own, k, each);
+      for (std::size_t k = next++; k < count && !stopped; k = next++) {
+        if (which == 0 && !go_on(static_cast<double>(k) / static_cast<double>(count))) stopped = true;
+        if (!stopped) make(own, k, each);
       }
     } catch (...) {
       failed[static_cast<std::size_t>(which)] = std::current_exception();
