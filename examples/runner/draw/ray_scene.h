@@ -16,8 +16,7 @@ struct Hit {
   Vec3f color;
 };
 
-constexpr std::size_t kBundle =
-    8;  ///< rays that go through the scene together; so many cost about as two alone
+constexpr std::size_t kBundle = 8;  ///< the most rays that go through the scene together
 
 /// Solid things and strands in Embree's hands, in coordinates (p - centre) / size.
 class RayScene {
