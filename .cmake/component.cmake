@@ -23,6 +23,14 @@ function(tendril_shared target)
   endif()
 endfunction()
 
+# Where TENDRIL_UNITY is on, sources of the target are compiled together: eight at a time, or as the properties say.
+function(tendril_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TENDRIL_UNITY} ${ARGN})
+  if(TENDRIL_UNITY)  # what a source has for itself is no header's there, though it is included
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 function(tendril_component)
   cmake_parse_arguments(ARG "" "NAME" "SOURCES;HEADERS;LINK_PUBLIC;LINK_PRIVATE;LINK_INTERFACE" ${ARGN})
   set(target tendril_${ARG_NAME})
@@ -37,10 +45,7 @@ function(tendril_component)
     string(MAKE_C_IDENTIFIER "${room}" room)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TENDRIL_UNITY} UNITY_BUILD_MODE GROUP)
-  if(TENDRIL_UNITY)  # what a source has for itself is no header's there, though it is included
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  endif()
+  tendril_unity(${target} UNITY_BUILD_MODE GROUP)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
   target_link_libraries(${target} PUBLIC ${ARG_LINK_PUBLIC} PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:tendril_warnings>

@@ -1,11 +1,12 @@
 #include "accuracy/cases.h"
 #include "support/equilibria.h"
+#include "support/numbers.h"
 
 namespace tendril::accuracy {
 namespace {
 
+using tendril::test::kPi;
 using test::balanced;
-constexpr double kPi = std::numbers::pi;
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(what);

@@ -1,13 +1,14 @@
 #include "accuracy/cases.h"
 #include "support/equilibria.h"
+#include "support/numbers.h"
 
 namespace tendril::accuracy {
 namespace {
 
+using tendril::test::kPi;
 using test::clamped;
 using test::point_load;
 using test::tip;
-constexpr double kPi = std::numbers::pi;
 constexpr int kLadder[] = {16, 32, 64, 128, 256};
 
 struct Elastica {

@@ -2,12 +2,13 @@
 
 #include "accuracy/cases.h"
 #include "support/equilibria.h"
+#include "support/numbers.h"
 #include "support/vibrations.h"
 
 namespace tendril::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 
 /// Of unit line density, half an edge's mass at each end, without bending stiffness.
 Rod chain(int edges, double length, double tension) {

@@ -1,10 +1,11 @@
 #include "accuracy/cases.h"
 #include "support/equilibria.h"
+#include "support/numbers.h"
 
 namespace tendril::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 
 // L = 100, B = 1.345, C = 0.789, the ends 3 nearer and turned by 27 turns.
 struct Coil {

@@ -3,12 +3,13 @@
 #include <numeric>
 
 #include "accuracy/cases.h"
+#include "support/numbers.h"
 #include "support/vibrations.h"
 
 namespace tendril::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 constexpr double kYoung = 1e6, kShear = kYoung / 3, kDensity = 1000;
 
 System rod_of(int edges, double radius, bool held, double disc = 0.0) {

@@ -16,7 +16,7 @@
 namespace tendril::bind {
 namespace {
 
-const std::string cases = std::string(TENDRIL_SOURCE_DIR) + "/tests/data/cases/";
+const std::string kCases = std::string(TENDRIL_SOURCE_DIR) + "/tests/data/cases/";
 
 struct Read {
   PolygonMesh mesh;
@@ -25,7 +25,7 @@ struct Read {
 
 Read read_case(const std::string& name) {
   std::vector<std::string> notes;
-  Read out{read_mesh(cases + name, &notes), ""};
+  Read out{read_mesh(kCases + name, &notes), ""};
   for (const std::string& note : notes) out.notes += note.substr(note.find(name) + name.size()) + "\n";
   return out;
 }
@@ -149,7 +149,7 @@ TEST(ImportLiberally, RefusesALibertyWhereNobodyIsTold) {
                            "meshes/binary_little_endian.off", "meshes/surplus_at_line_ends.ply",
                            "off_columns/ncoff_meshlab_float.off", "off_columns/noff_msind.off",
                            "off_columns/off_with_vertex_rgba_int.off", "off_columns/silent_floor.off"})
-    EXPECT_THROW(read_mesh(cases + name), InvalidInput) << name;
+    EXPECT_THROW(read_mesh(kCases + name), InvalidInput) << name;
 }
 
 TEST(ImportLiberally, ReadsBinaryOffOfOtherByteOrder) {

@@ -49,10 +49,10 @@ TEST(ParseObj, AcceptsEveryWayToWriteTheSame) {
 
 TEST(ParseObj, ReadsPolygonsAndNumbersToTheLastBit) {
   expect_same(parse_obj(obj_text(house()), "a"), house());
-  using Limits = std::numeric_limits<double>;
+  using Doubles = std::numeric_limits<double>;
   const PolygonMesh mesh =
       parse_obj("v 0.1 1e-320 -0\nv 1.7976931348623157e308 4.9406564584124654e-324 1e-400\n", "a");
-  EXPECT_EQ(bits(mesh.points), bits({{0.1, 1e-320, -0.0}, {Limits::max(), Limits::denorm_min(), 0}}));
+  EXPECT_EQ(bits(mesh.points), bits({{0.1, 1e-320, -0.0}, {Doubles::max(), Doubles::denorm_min(), 0}}));
 }
 
 TEST(ParseObj, ReadsColors) {
@@ -195,7 +195,7 @@ TEST(RejectObj, Everything) {
 }
 
 /// Decimal comma, as in much of Europe.
-struct CommaFacet : std::numpunct<char> {
+struct CommaInObj : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   std::string do_grouping() const override { return "\3"; }
 };
@@ -204,7 +204,7 @@ TEST(ParseObj, DoesNotDependOnTheLocale) {
   const std::string obj = "v 0.5 1.25 1000000\nv 1e-3 0 0\nv 0 1 0\nvt 0.5\nf 1/1 2/1 3/1\n";
   const PolygonMesh mesh = parse_obj(obj, "a");
   const PolygonMesh stl = parse_stl(stl_text(mesh), "a");
-  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaFacet));
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaInObj));
   const PolygonMesh with_comma = parse_obj(obj, "a"), stl_with_comma = parse_stl(stl_text(mesh), "a");
   std::locale::global(before);
   expect_same(with_comma, mesh);

@@ -43,8 +43,8 @@ TEST(ParseOff, AcceptsEveryWayToWriteTheSame) {
 TEST(ParseOff, ReadsNumbersToTheLastBit) {
   const auto mesh =
       parse_off("OFF 2 0 0\n0.1 1e-320 -0\n1.7976931348623157e308 4.9406564584124654e-324 3\n", "a");
-  using Limits = std::numeric_limits<double>;
-  EXPECT_EQ(bits(mesh.points), bits({{0.1, 1e-320, -0.0}, {Limits::max(), Limits::denorm_min(), 3}}));
+  using Doubles = std::numeric_limits<double>;
+  EXPECT_EQ(bits(mesh.points), bits({{0.1, 1e-320, -0.0}, {Doubles::max(), Doubles::denorm_min(), 3}}));
   EXPECT_EQ(mesh.face_begin, std::vector<std::uint32_t>{0});
 }
 
@@ -343,11 +343,11 @@ TEST(Parse, DoesNotDependOnTheLocale) {
   const PolygonMesh mesh = parse_off(off, "a.off");
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaFacet));
   const PolygonMesh with_comma = parse_off(off, "a.off");
-  const PolygonMesh ply = parse_ply(ply_text("\n"), "a.ply");
+  const PolygonMesh from_ply = parse_ply(ply_text("\n"), "a.ply");
   EXPECT_THROW(parse_off("OFF\n1 0 0\n0,5 1 1\n", "a.off"), InvalidInput);
   std::locale::global(before);
   expect_same(with_comma, mesh);
-  expect_same(ply, tetrahedron());
+  expect_same(from_ply, tetrahedron());
   EXPECT_EQ(mesh.points[0], Vec3(0.5, 1.25, 1e6));
 }
 

@@ -4,6 +4,7 @@
 #include <tendril/bind/mesh_follower.h>
 #include <tendril/dynamics/rod_curves.h>
 
+#include "support/numbers.h"
 #include "support/pairs.h"
 #include "support/random.h"
 
@@ -11,8 +12,8 @@
 namespace tendril::bind {
 namespace {
 
+using tendril::test::kPi;
 using test::Random;
-constexpr double kPi = std::numbers::pi;
 
 struct Bound {
   CurvePair rest, posed;

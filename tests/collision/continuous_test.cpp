@@ -9,6 +9,7 @@
 #include "collision/ccd_data.h"
 #include "collision/made_queries.h"
 #include "support/meeting_truth.h"
+#include "support/numbers.h"
 
 namespace tendril {
 namespace {
@@ -19,7 +20,7 @@ using collision::Meeting;
 using collision::Paths;
 using collision::Reason;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using tendril::test::kInfinity;
 constexpr Features kBoth[] = {Features::vertex_face, Features::edge_edge};
 
 Paths<1> still(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

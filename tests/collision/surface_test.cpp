@@ -3,9 +3,9 @@
 #include <tendril/exact/surface.h>
 
 #include <cmath>
-#include <limits>
 
 #include "collision/made_meshes.h"
+#include "support/numbers.h"
 #include "support/random.h"
 
 namespace tendril::exact {
@@ -13,8 +13,8 @@ namespace {
 
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using tendril::test::kInfinity;
+using tendril::test::kNaN;
 
 struct Mesh : test::MadeMesh {
   Surface surface() const { return Surface(points, corners); }

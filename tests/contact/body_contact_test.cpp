@@ -45,7 +45,7 @@ struct Bodies {
   }
 };
 
-const BodyMemory& memory_of(const Simulation& simulation) {
+const BodyMemory& body_memory_of(const Simulation& simulation) {
   return dynamic_cast<const BodyMemory&>(*simulation.state().memory.at(0));
 }
 
@@ -67,7 +67,7 @@ TEST(BodyContact, ABallBouncesForEverAtTheSameHeight) {
     lowest = std::min(lowest, now.position.z());
     // The top of the flight that it is on.
     const double top = now.position.z() + std::pow(now.velocity.z(), 2) / (2.0 * kGravity);
-    if (t > 1.0 && memory_of(simulation).touches.empty()) highest = std::max(highest, top);
+    if (t > 1.0 && body_memory_of(simulation).touches.empty()) highest = std::max(highest, top);
     return true;
   });
   const Report report = simulation.run(3.0);
@@ -99,13 +99,13 @@ TEST(BodyContact, ASlidingBallComesToRoll) {
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
     BodyView now = system.bodies(simulation.state())[0];
     EXPECT_NEAR(now.velocity.x(), speed - mu * kGravity * 0.9 * rolls, 1e-3);
-    EXPECT_FALSE(memory_of(simulation).touches.at(0).sticks);
+    EXPECT_FALSE(body_memory_of(simulation).touches.at(0).sticks);
     report = simulation.run(3.0 * rolls);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
     now = system.bodies(simulation.state())[0];
     EXPECT_NEAR(now.velocity.x(), 5.0 / 7.0 * speed, 3e-3);
     EXPECT_NEAR(now.spin.y() * radius, now.velocity.x(), 3e-3);
-    EXPECT_TRUE(memory_of(simulation).touches.at(0).sticks);
+    EXPECT_TRUE(body_memory_of(simulation).touches.at(0).sticks);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(BodyContact, ABoxStandsOnASlopeAndOneTooSteepSlides) {
     Simulation simulation(system, system.rest_state(), within(1e-6, Method::automatic));
     Report report = simulation.run(1.0);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
-    EXPECT_EQ(memory_of(simulation).touches.size(), 4u);
+    EXPECT_EQ(body_memory_of(simulation).touches.size(), 4u);
     const BodyView before = system.bodies(simulation.state())[0];
     report = simulation.run(2.0);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;

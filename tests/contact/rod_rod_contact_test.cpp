@@ -15,7 +15,7 @@ using test::Random;
 using test::Shown;
 using test::shown;
 
-constexpr double kRange = 0.04;
+constexpr double kRodRange = 0.04;
 
 constexpr double kRadius = 0.05;
 
@@ -64,7 +64,7 @@ TEST(RodRodContact, KeepsToWhatItSaysOfItself) {
       for (const double damping : {0.0, 0.2}) {
         SCOPED_TRACE(std::to_string(friction) + " " + std::to_string(damping));
         auto [rods, s] = make_tangle(random, 0.02, 0.5);
-        const RodRodContact contact(rods, {}, law_of(kind, kRange, friction, damping));
+        const RodRodContact contact(rods, {}, law_of(kind, kRodRange, friction, damping));
         s.memory = contact.remember(s.view(), nullptr);
         ASSERT_GT(memory_of(s.memory).touches.size(), 30u);
         bool self = false, other = false;
@@ -88,7 +88,7 @@ TEST(RodRodContact, IsTheSameWithALedgerAndWithout) {
   long searches = 0, steps = 0;
   for (int round = 0; round < 60; ++round) {
     auto [rods, s] = make_tangle(random, random.uniform(0.01, 0.08), 0.5);
-    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
+    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRodRange, 0.0, 0.0));
     s.memory = contact.remember(s.view(), nullptr);
     for (int step = 0; step < 12; ++step) {
       const Vec3 common = random.in_cube(1.0);
@@ -112,7 +112,7 @@ TEST(RodRodContact, KeepsMomentum) {
   for (const double friction : {0.0, 0.2, 10.0}) {
     auto [rods, s] = make_tangle(random, 0.02, 0.5);
     rods[1].radius = 0.9 * kRadius;
-    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, friction, 0.1));
+    const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRodRange, friction, 0.1));
     s.memory = contact.remember(s.view(), nullptr);
     for (Vec3& p : s.p) p += random.in_cube(1e-3);
     std::vector<Vec3> force(s.p.size(), Vec3::Zero()), torque = force;
@@ -134,7 +134,7 @@ TEST(RodRodContact, KeepsMomentum) {
 TEST(RodRodContact, SeesNoSlidingInARigidMotion) {
   Random random(4);
   auto [rods, s] = make_tangle(random, 0.02, 0.0);
-  const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRange, 0.5, 0.1));
+  const RodRodContact contact(rods, {}, law_of(Law::Kind::barrier, kRodRange, 0.5, 0.1));
   const Vec3 axis(0.3, -0.5, 0.8);
   const auto turn = [&](double angle) {
     return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
@@ -269,7 +269,7 @@ TEST(RodRodContact, IsSmoothAlongALine) {
   const std::vector<Vec3> a = test::straight(4, 1.0);
   std::vector<Vec3> rest = a;
   for (Vec3& x : rest) x += Vec3(0, 0, 1);
-  const Law law = law_of(Law::Kind::barrier, kRange, 0.0, 0.0);
+  const Law law = law_of(Law::Kind::barrier, kRodRange, 0.0, 0.0);
   const RodRodContact contact({{0, kRadius, a}, {1, kRadius, rest}}, {}, law);
   Random random(6);
   for (const double gap : {0.01, 0.02}) {

@@ -19,7 +19,7 @@ using test::Sheets;
 using test::Shown;
 using test::shown_of;
 
-constexpr double kSkin = 0.01, kRange = 0.03;
+constexpr double kSelfSkin = 0.01, kSelfRange = 0.03;
 
 const SurfaceSelfMemory& memory_of(const Shown& s) {
   return static_cast<const SurfaceSelfMemory&>(*s.memory);
@@ -31,8 +31,8 @@ TEST(SurfaceSelf, KeepsToWhatItSaysOfItself) {
   for (const double angle : {1.3, 0.01})
     for (const Law::Kind kind : {Law::Kind::barrier, Law::Kind::penalty}) {
       SCOPED_TRACE(kind == Law::Kind::barrier ? "barrier" : "penalty");
-      const Sheets sheets = test::crossed(2 * kSkin + 0.015, angle);
-      const SurfaceSelfContact contact(sheets.surface(kSkin), law_of(kind, kRange, 0.0, 0.0));
+      const Sheets sheets = test::crossed(2 * kSelfSkin + 0.015, angle);
+      const SurfaceSelfContact contact(sheets.surface(kSelfSkin), law_of(kind, kSelfRange, 0.0, 0.0));
       Shown s = shown_of(sheets.rods, random, 0.002, 0.5);
       s.memory = contact.remember(s.view(), nullptr);
       ASSERT_GT(memory_of(s).touches.size(), 30u);
@@ -47,11 +47,11 @@ TEST(SurfaceSelf, KeepsToWhatItSaysOfItself) {
 /// What comes of inner forces alone: no force, and no torque but for friction.
 TEST(SurfaceSelf, PushesNothingFromOutside) {
   Random random(2);
-  const Sheets sheets = test::crossed(2 * kSkin + 0.012);
+  const Sheets sheets = test::crossed(2 * kSelfSkin + 0.012);
   for (const double friction : {0.0, 0.4}) {
     SCOPED_TRACE(friction);
-    const SurfaceSelfContact contact(sheets.surface(kSkin),
-                                     law_of(Law::Kind::barrier, kRange, friction, friction));
+    const SurfaceSelfContact contact(sheets.surface(kSelfSkin),
+                                     law_of(Law::Kind::barrier, kSelfRange, friction, friction));
     Shown s = shown_of(sheets.rods, random, 0.002, 0.5);
     s.memory = contact.remember(s.view(), nullptr);
     for (Vec3& p : s.p) p += random.in_cube(1e-4);
@@ -217,8 +217,9 @@ TEST(SurfaceSelf, FeelsAFold) {
 /// What was on one side and is on the other has come through, however fast.
 TEST(SurfaceSelf, RefusesAJumpThrough) {
   Random random(5);
-  const Sheets sheets = test::crossed(2 * kSkin + 0.05);
-  const SurfaceSelfContact contact(sheets.surface(kSkin), law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
+  const Sheets sheets = test::crossed(2 * kSelfSkin + 0.05);
+  const SurfaceSelfContact contact(sheets.surface(kSelfSkin),
+                                   law_of(Law::Kind::barrier, kSelfRange, 0.0, 0.0));
   int through = 0, beside = 0;
   for (int round = 0; round < 100; ++round) {
     Shown s = shown_of(sheets.rods, random, 0.002, 0.0);
@@ -314,14 +315,14 @@ TEST(SurfaceSelf, LeavesInWindDoNotPassThroughEachOther) {
 
 TEST(SurfaceSelf, RefusesWhatBeginsInContactAndWhatIsNoSurface) {
   Random random(6);
-  const Sheets sheets = test::crossed(2 * kSkin - 0.001);
+  const Sheets sheets = test::crossed(2 * kSelfSkin - 0.001);
   const Shown s = shown_of(sheets.rods, random, 0.0, 0.0);
-  const SurfaceSelfContact within(sheets.surface(kSkin), law_of(Law::Kind::barrier, kRange, 0, 0));
+  const SurfaceSelfContact within(sheets.surface(kSelfSkin), law_of(Law::Kind::barrier, kSelfRange, 0, 0));
   EXPECT_THROW(within.remember(s.view(), nullptr), InvalidInput);
-  ContactSurface spoilt = sheets.surface(kSkin);
+  ContactSurface spoilt = sheets.surface(kSelfSkin);
   spoilt.triangles[2][0] = 99999;
-  EXPECT_THROW(SurfaceSelfContact(spoilt, law_of(Law::Kind::barrier, kRange, 0, 0)), InvalidInput);
-  EXPECT_THROW(SurfaceSelfContact(sheets.surface(kSkin), law_of(Law::Kind::barrier, -1.0, 0, 0)),
+  EXPECT_THROW(SurfaceSelfContact(spoilt, law_of(Law::Kind::barrier, kSelfRange, 0, 0)), InvalidInput);
+  EXPECT_THROW(SurfaceSelfContact(sheets.surface(kSelfSkin), law_of(Law::Kind::barrier, -1.0, 0, 0)),
                InvalidInput);
 }
 

@@ -3,9 +3,9 @@
 #include <tendril/curve/arc_length.h>
 
 #include <cmath>
-#include <limits>
 
 #include "curve/projection_cases.h"
+#include "support/numbers.h"
 
 namespace tendril {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using test::NamedCurve;
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using tendril::test::kNaN;
 
 TEST(ArcLengthOf, AStraightLineAtUnevenSpeedIsTheDistance) {
   const BSpline line = test::uniform_curve(3, {{0, 0, 0}, {1, 2, 2}, {1.5, 3, 3}, {4, 8, 8}, {5, 10, 10}});

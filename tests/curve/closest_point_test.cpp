@@ -3,17 +3,17 @@
 #include <tendril/curve/closest_point.h>
 
 #include <cmath>
-#include <limits>
 
 #include "curve/projection_cases.h"
+#include "support/numbers.h"
 
 namespace tendril {
 namespace {
 
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using tendril::test::kInfinity;
+using tendril::test::kNaN;
 
 TEST(NearestPoint, OnALineIsTheFootOrTheNearerEnd) {
   for (int degree = 1; degree <= 5; ++degree) {

@@ -1,16 +1,16 @@
+#include "support/numbers.h"
+
 #include <gtest/gtest.h>
 #include <tendril/base/error.h>
 #include <tendril/curve/fit.h>
 #include <tendril/curve/frame_jump.h>
 #include <tendril/dynamics/rod.h>
 
-#include <numbers>
-
 namespace tendril {
 namespace {
 
 using Cause = FrameJump::Cause;
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 
 /// A half circle in the plane z = 0 from the origin to (0, 2, 0).
 std::vector<Vec3> arch(int nodes) {

@@ -6,18 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/frames.h"
 #include "support/random.h"
 
 namespace tendril {
 namespace {
 
+using test::departure;
 using test::Random;
-
-double departure(const Frame& f) {
-  Mat3 m;
-  m << f.x, f.y, f.z;
-  return (m.transpose() * m - Mat3::Identity()).norm() + std::abs(f.x.cross(f.y).dot(f.z) - 1.0);
-}
 
 CurvePair random_pair(std::uint64_t seed, int points) {
   Random random(seed);

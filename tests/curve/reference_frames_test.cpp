@@ -3,15 +3,17 @@
 #include <tendril/curve/reference_frames.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "curve/projection_cases.h"
+#include "support/frames.h"
+#include "support/numbers.h"
 
 namespace tendril {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using test::departure;
+using test::kNaN;
 
 constexpr double kStart = -1.0, kEnd = 2.0;
 
@@ -44,12 +46,6 @@ Exact exact(double t) {
 Vec3 exact_minimising(double t) {
   const double angle = -std::numbers::sqrt2 * (std::atan(t) - std::atan(kStart));
   return std::cos(angle) * exact(t).normal + std::sin(angle) * exact(t).binormal;
-}
-
-double departure(const Frame& f) {
-  Mat3 m;
-  m << f.x, f.y, f.z;
-  return (m.transpose() * m - Mat3::Identity()).norm() + std::abs(f.x.cross(f.y).dot(f.z) - 1.0);
 }
 
 double minimising_error(int steps) {

@@ -3,12 +3,13 @@
 #include <complex>
 
 #include "support/equilibria.h"
+#include "support/numbers.h"
 
 // What counts as an equilibrium is balanced in every direction: what nothing resists is followed, or named.
 namespace tendril {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 constexpr double kBalanced = 1e-9;
 
 struct Hinged {

@@ -73,7 +73,7 @@ TEST(FarForce, LosesTheOrderWhereItsCouplingsAreNotSaid) {
 
 /// What solves (s - J) U = r, put back with J U by central differences of the equations, over the size of J
 /// U.
-double residual(const System& system, double s) {
+double coupled_residual(const System& system, double s) {
   const Model& model = model_of(system);
   test::Random random(5);
   State state = test::stirred(system, random, 0.02);
@@ -122,12 +122,12 @@ TEST(FarForce, EntersTheJacobian) {
     for (const Says says : {Says::exact, Says::differences}) {
       SCOPED_TRACE(testing::Message() << s << (says == Says::exact ? " exact" : " differences"));
       for (const bool twist : {false, true}) {
-        EXPECT_LT(residual(bow(says, twist), s), 3e-5);
-        EXPECT_LT(residual(pair_of_rods(says, twist), s), 3e-5);
+        EXPECT_LT(coupled_residual(bow(says, twist), s), 3e-5);
+        EXPECT_LT(coupled_residual(pair_of_rods(says, twist), s), 3e-5);
       }
-      for (const std::size_t at : {9u, 10u, 2u}) EXPECT_LT(residual(tree(says, at), s), 3e-5) << at;
+      for (const std::size_t at : {9u, 10u, 2u}) EXPECT_LT(coupled_residual(tree(says, at), s), 3e-5) << at;
     }
-  EXPECT_GT(residual(bow(Says::first_node_alone, false), 1.0), 1e-3);
+  EXPECT_GT(coupled_residual(bow(Says::first_node_alone, false), 1.0), 1e-3);
 }
 
 struct Everything : FarSpring {

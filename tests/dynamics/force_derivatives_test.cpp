@@ -24,8 +24,8 @@ struct Gathered : LoadDerivatives {
 };
 
 /// Rods of 5 and 4 nodes, stirred, and what a force sees of them.
-struct Stirred {
-  explicit Stirred(Random& random) {
+struct StirredState {
+  explicit StirredState(Random& random) {
     for (std::size_t i = 0; i < 9; ++i) {
       p.push_back(Vec3(0.3 * static_cast<double>(i), 0, 0) + 0.1 * random.in_cube());
       v.push_back(2.0 * random.in_cube());
@@ -49,11 +49,11 @@ struct Stirred {
 };
 
 /// Largest difference to central differences, relative to the largest entry.
-double error_of(const Force& force, Stirred state) {
+double error_of(const Force& force, StirredState state) {
   Gathered gathered(9);
   force.couplings(state.rods).derivatives()(state.view(), gathered);
   double worst = 0.0;
-  const auto compare = [&](std::vector<Vec3> Stirred::*field, const Eigen::MatrixXd& exact) {
+  const auto compare = [&](std::vector<Vec3> StirredState::*field, const Eigen::MatrixXd& exact) {
     for (std::size_t j = 0; j < 9; ++j)
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const double h = 1e-5;
@@ -72,8 +72,8 @@ double error_of(const Force& force, Stirred state) {
         }
       }
   };
-  compare(&Stirred::p, gathered.by_p);
-  if (gathered.by_v.cwiseAbs().maxCoeff() > 0.0) compare(&Stirred::v, gathered.by_v);
+  compare(&StirredState::p, gathered.by_p);
+  if (gathered.by_v.cwiseAbs().maxCoeff() > 0.0) compare(&StirredState::v, gathered.by_v);
   return worst;
 }
 
@@ -84,12 +84,13 @@ TEST(WindDerivatives, MatchDifferences) {
   wind.gust = 0.6;
   wind.gust_frequency = 2.0;
   wind.tangential_drag = 0.3;
-  for (int trial = 0; trial < 5; ++trial) EXPECT_LT(error_of(Wind(wind), Stirred(random)), 1e-7) << trial;
+  for (int trial = 0; trial < 5; ++trial)
+    EXPECT_LT(error_of(Wind(wind), StirredState(random)), 1e-7) << trial;
 }
 
 TEST(WindDerivatives, AreNothingInStillFlowAlongTheEdges) {
   Random random(18);
-  Stirred state(random);
+  StirredState state(random);
   for (Vec3& v : state.v) v.setZero();
   Gathered gathered(9);
   Wind(WindOptions{}).couplings(state.rods).derivatives()(state.view(), gathered);
@@ -99,7 +100,7 @@ TEST(WindDerivatives, AreNothingInStillFlowAlongTheEdges) {
 
 TEST(PullTowardsDerivatives, MatchDifferences) {
   Random random(19);
-  EXPECT_LT(error_of(PullTowards(1, 2, Vec3(1, 2, 3), 40.0), Stirred(random)), 1e-7);
+  EXPECT_LT(error_of(PullTowards(1, 2, Vec3(1, 2, 3), 40.0), StirredState(random)), 1e-7);
 }
 
 }  // namespace

@@ -3,14 +3,15 @@
 #include <tendril/dynamics/stiffness.h>
 
 #include "support/equilibria.h"
+#include "support/numbers.h"
 #include "support/statics.h"
 
 // Bending is the same with a twist state and without, and its angles are true up to half a turn.
 namespace tendril {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const Vec3 kGravity(0, -9.81, 0);
+using tendril::test::kPi;
+const Vec3 kDown(0, -9.81, 0);
 
 Vec3 place(const State& state, Eigen::Index node) {
   return state.y.segment<3>(3 * node);
@@ -24,7 +25,7 @@ Equilibrium bent_over(int edges) {
   scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.01),
                                 {2354400, 2354400 / 2.8, 1000}, rectangular_section(0.01, 0.02)));
   scene.anchors.push_back({0, 0, true, true, {}});
-  scene.forces.push_back(std::make_shared<Gravity>(kGravity));
+  scene.forces.push_back(std::make_shared<Gravity>(kDown));
   return test::balanced(System(scene));
 }
 
@@ -200,7 +201,7 @@ TEST(Viscosity, OfNextToNothingMovesNothing) {
                                   {2e5, 2e5 / 2.6, 1200}, circular_section(0.02)));
     scene.rods[0].viscosity = viscosity;
     scene.anchors.push_back({0, 0, true, true, {}});
-    scene.forces.push_back(std::make_shared<Gravity>(kGravity));
+    scene.forces.push_back(std::make_shared<Gravity>(kDown));
     const System system(scene);
     SimulationOptions options;
     options.method = Method::automatic;

@@ -1,14 +1,15 @@
 #include <tendril/dynamics/forces.h>
 
 #include "support/equilibria.h"
+#include "support/numbers.h"
 #include "support/soundness.h"
 
 // Extreme scenes that have a closed form, or whose refusal is known by name.
 namespace tendril {
 namespace {
 
+using tendril::test::kPi;
 using test::Trial;
-constexpr double kPi = std::numbers::pi;
 
 TEST(Degenerate, RestShapesAreRefusedWithThePlace) {
   const auto place = [](const std::function<void(Rod&)>& spoil) {

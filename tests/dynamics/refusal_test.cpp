@@ -10,8 +10,8 @@ namespace tendril {
 namespace {
 
 /// Nothing but a wall: no state has the tip below a height.
-struct Floor : Force {
-  Floor(double z, bool says) : height(z), says_so(says) {}
+struct ShiftedFloor : Force {
+  ShiftedFloor(double z, bool says) : height(z), says_so(says) {}
   void add(const StateView& state, const Loads& loads) const override {
     if (state.p[6].z() < height) loads.refuse(6);
   }
@@ -32,7 +32,8 @@ Fallen fall(double floor, bool says_so, Method method) {
   Scene scene;
   scene.rods.push_back(test::straight_rod(6, 1e5, 0.02));
   scene.anchors.push_back({.rod = 0, .node = 0});
-  scene.forces = {std::make_shared<Gravity>(Vec3(0, 0, -9.81)), std::make_shared<Floor>(floor, says_so)};
+  scene.forces = {std::make_shared<Gravity>(Vec3(0, 0, -9.81)),
+                  std::make_shared<ShiftedFloor>(floor, says_so)};
   const System system(scene);
   SimulationOptions options;
   options.method = method;
@@ -118,7 +119,7 @@ TEST(Refusing, LooksWhereTheStagesOfAnExplicitStepDoNot) {
 TEST(Refusing, AStateCanBeAsked) {
   Scene scene;
   scene.rods.push_back(test::straight_rod(6, 1e5, 0.02));
-  scene.forces = {std::make_shared<Floor>(-0.5, true)};
+  scene.forces = {std::make_shared<ShiftedFloor>(-0.5, true)};
   const System system(scene);
   const auto work = system.make_workspace();
   State state = system.rest_state();

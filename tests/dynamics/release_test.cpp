@@ -3,12 +3,15 @@
 #include <tendril/dynamics/simulation.h>
 #include <tendril/dynamics/statics.h>
 
+#include "support/numbers.h"
 #include "support/rods.h"
 
 namespace tendril {
 namespace {
 
-constexpr double kRelease = 0.2, kEnd = 0.7, kGravity = 9.81;
+using test::kGravity;
+
+constexpr double kRelease = 0.2, kEnd = 0.7;
 
 Scene hanging(bool anisotropic, double until) {
   Scene scene;
@@ -167,7 +170,7 @@ TEST(ReleasedAnchor, NeedsATime) {
 
 /// Stiff rods that shake a little until they are let go, and fly for long: what is wrong about their shaking
 /// at the release, and about their turning after it, is carried as far as they fly.
-struct Shaken {
+struct ShakenAndReleased {
   int edges;
   double young, radius, damping, release, end;
 };
@@ -180,8 +183,9 @@ Eigen::VectorXd end_of(const System& system, const SimulationOptions& options, d
 }
 
 TEST(ReleasedRod, FliesWhereItsShakingSendsIt) {
-  for (const Shaken& s : {Shaken{2, 2e8, 2e-2, 0.029, 2.5, 4.9}, Shaken{2, 3e8, 3e-2, 0.0, 1.2, 3.2},
-                          Shaken{6, 3e10, 2e-3, 0.1, 1.1, 6.0}}) {
+  for (const ShakenAndReleased& s :
+       {ShakenAndReleased{2, 2e8, 2e-2, 0.029, 2.5, 4.9}, ShakenAndReleased{2, 3e8, 3e-2, 0.0, 1.2, 3.2},
+        ShakenAndReleased{6, 3e10, 2e-3, 0.1, 1.1, 6.0}}) {
     Scene scene;
     scene.rods.push_back(test::straight_rod(s.edges, s.young, s.radius));
     scene.rods[0].mass_damping = s.damping;

@@ -3,16 +3,16 @@
 #include <tendril/dynamics/supports.h>
 
 #include "support/equilibria.h"
+#include "support/numbers.h"
 #include "support/order.h"
 
 namespace tendril {
 namespace {
 
 using test::balanced;
+using test::kGravity;
 using test::Random;
 using Slide = Anchor::Slide;
-
-constexpr double kGravity = 9.81;
 
 Anchor sliding(std::size_t node, Slide slide, const Vec3& axis, bool holds_frame = false) {
   return {.rod = 0, .node = node, .holds_frame = holds_frame, .slide = slide, .slide_axis = axis};

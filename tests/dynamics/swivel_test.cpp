@@ -4,16 +4,16 @@
 #include <tendril/dynamics/supports.h>
 
 #include "support/equilibria.h"
+#include "support/numbers.h"
 #include "support/order.h"
 
 namespace tendril {
 namespace {
 
 using test::balanced;
+using test::kGravity;
 using test::Random;
 using Kind = PointLoad::Kind;
-
-constexpr double kGravity = 9.81;
 
 Anchor swivelling(std::size_t node, const Vec3& axis) {
   return {.rod = 0, .node = node, .swivels = true, .swivel_axis = axis};
@@ -21,7 +21,7 @@ Anchor swivelling(std::size_t node, const Vec3& axis) {
 
 /// An uneven rod with a viscous branch at a node that swivels about an oblique axis, and another that does so
 /// in the branch; with `moving` they are carried and turned.
-Scene shaken(bool moving) {
+Scene shaken_swivel(bool moving) {
   Random random(31);
   Scene scene;
   scene.rods.push_back(test::uneven_rod(random, 6));
@@ -58,7 +58,7 @@ Scene shaken(bool moving) {
 }
 
 TEST(Swivel, GradientAndHessianMatchDifferences) {
-  const System system(shaken(false));
+  const System system(shaken_swivel(false));
   Random random(7);
   const State state = test::stirred(system, random, 0.1);
   const auto work = system.make_workspace();
@@ -89,7 +89,7 @@ TEST(Swivel, GradientAndHessianMatchDifferences) {
 TEST(Swivel, KeepsRodasAtOrderFour) {
   for (const bool moving : {false, true})
     for (const auto slide : {Anchor::Slide::none, Anchor::Slide::line}) {
-      Scene scene = shaken(moving);
+      Scene scene = shaken_swivel(moving);
       scene.anchors[0].slide = slide;
       scene.anchors[0].slide_axis = Vec3(1, 1, 2);
       const System system(scene);
@@ -99,7 +99,7 @@ TEST(Swivel, KeepsRodasAtOrderFour) {
 
 TEST(Swivel, IsTheSameMotionByAllMethodsAndBalancesItsEnergy) {
   for (const bool moving : {false, true}) {
-    const System system(shaken(moving));
+    const System system(shaken_swivel(moving));
     std::vector<Vec3> ends;
     for (const Method method : {Method::cash_karp, Method::rodas, Method::runge_kutta4, Method::verlet}) {
       SimulationOptions options;
@@ -120,7 +120,7 @@ TEST(Swivel, IsTheSameMotionByAllMethodsAndBalancesItsEnergy) {
 
 /// Statics finds where the motion's equations rest, and both say the same of supports.
 TEST(Swivel, AtRestHasTheSupportsOfStatics) {
-  const System system(shaken(false));
+  const System system(shaken_swivel(false));
   const Equilibrium found = balanced(system);
   EXPECT_GT((test::at(found.state.y, 5) - system.scene().rods[0].p[5]).norm(), 0.1);
   Eigen::VectorXd rate;
@@ -137,7 +137,7 @@ TEST(Swivel, AtRestHasTheSupportsOfStatics) {
 
 /// The momenta of a whole scene change by what supports and loads do.
 TEST(Swivel, BalancesBothMomenta) {
-  const Scene scene = shaken(true);
+  const Scene scene = shaken_swivel(true);
   const System system(scene);
   Random random(3);
   State state = test::stirred(system, random, 0.05);

@@ -118,9 +118,9 @@ TEST(Collide, HoldsTwoMeshesAgainstEachOther) {
   EXPECT_TRUE(against.at("parts_of_other").is_null());
 }
 
-constexpr const char* kAxis =
+constexpr const char* kMast =
     R"({"version": 1, "orientation": [1, 0, 0], "points": [[0, 0, 0], [0, 0.4, 0], [0, 0.7, 0], [0, 1, 0]]})";
-constexpr const char* kPose =
+constexpr const char* kBentMast =
     R"({"version": 1, "orientation": [0, 0, 1], "points": [[0, 0, 0], [0, 0.4, 0], [0.3, 0.6, 0], [0.6, 0.5, 0]]})";
 
 std::string many_queries() {
@@ -147,8 +147,8 @@ Json without_windings(const Json& found) {
 TEST(Collide, DeformsWhatDeformDeforms) {
   const Folder folder;
   folder.write("tube.off", tube_off(40));
-  folder.write("axis.json", kAxis);
-  folder.write("pose.json", kPose);
+  folder.write("axis.json", kMast);
+  folder.write("pose.json", kBentMast);
   folder.write("q.json", many_queries());
   ASSERT_EQ(folder.run("deform tube.off --axis axis.json --pose pose.json --out posed.off").code, 0);
   const Json lazy = answers(folder, "tube.off q.json --axis axis.json --pose pose.json", 1);
@@ -255,7 +255,7 @@ TEST(Collide, RefusesOtherFilesToo) {
   folder.write("none.off", "OFF\n1 0 0\n0 0 0\n");
   folder.write("nan.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n");
   folder.write("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n");
-  folder.write("axis.json", kAxis);
+  folder.write("axis.json", kMast);
   Json scene = Json::parse(full_scene());
   scene.erase("mesh");
   scene.erase("bound_to");
@@ -271,8 +271,8 @@ TEST(Collide, RefusesOtherFilesToo) {
   expect_refused(folder, "cube.off q.json --pose axis.json", "--pose:", "without --axis");
   expect_refused(folder, "scene.json q.json --axis axis.json", "--axis:", "with a scene");
   expect_refused(folder, "scene.json q.json --pose axis.json", "axis.json#:", "chain of its 6 masses");
-  folder.write("two.json", R"({"version": 1, "curves": [)" + std::string(kAxis).replace(0, 14, "{") + "," +
-                               std::string(kAxis).replace(0, 14, "{") + "]}");
+  folder.write("two.json", R"({"version": 1, "curves": [)" + std::string(kMast).replace(0, 14, "{") + "," +
+                               std::string(kMast).replace(0, 14, "{") + "]}");
   expect_refused(folder, "scene.json q.json --pose two.json", "two.json#:", "2 curve-pairs");
 }
 

@@ -62,15 +62,15 @@ std::vector<Format> formats(const PolygonMesh& mesh) {
           {"STL, binary", bind::stl_bytes(mesh, "solid or not")}};
 }
 
-constexpr const char* kAxis = R"({"version": 1, "orientation": [0, 0, 1], "points":
+constexpr const char* kUpright = R"({"version": 1, "orientation": [0, 0, 1], "points":
   [[0, 0.1, 0], [0, 0.3, 0], [0, 0.5, 0], [0, 0.7, 0], [0, 0.9, 0]]})";
-constexpr const char* kPose = R"({"version": 1, "orientation": [0, 0, 1], "points":
+constexpr const char* kLeaning = R"({"version": 1, "orientation": [0, 0, 1], "points":
   [[0, 0.1, 0], [0, 0.3, 0], [0.05, 0.5, 0], [0.15, 0.67, 0], [0.3, 0.8, 0]]})";
 
 /// What the commands print and write about the mesh in a folder, by what was asked.
 std::vector<std::pair<std::string, std::string>> all_commands(const Folder& folder) {
-  folder.write("axis.json", kAxis);
-  folder.write("pose.json", kPose);
+  folder.write("axis.json", kUpright);
+  folder.write("pose.json", kLeaning);
   folder.write("queries.json", R"({"version": 1, "points": [[0, 0.5, 0], [1, 0, 0]],
     "balls": [{"centre": [0.2, 0.5, 0], "radius": 0.11}]})");
   const std::string scene =
@@ -151,8 +151,8 @@ TEST(Formats, TextureCoordinatesSurvive) {
     obj += '\n';
   }
   const std::string file = folder.write("rod.obj", obj);
-  folder.write("axis.json", kAxis);
-  folder.write("pose.json", kPose);
+  folder.write("axis.json", kUpright);
+  folder.write("pose.json", kLeaning);
   const PolygonMesh read = bind::read_mesh(file);
   ASSERT_EQ(read.corner_texture.size(), mesh.corners.size());
   EXPECT_EQ(read.corner_texture[17], (bind::TextureCoordinate{0.17, 0.5}));
@@ -169,7 +169,7 @@ TEST(Formats, TextureCoordinatesSurvive) {
 
 TEST(Formats, RefusesMalformedOnesWithPlaceByEveryCommand) {
   const Folder folder;
-  folder.write("axis.json", kAxis);
+  folder.write("axis.json", kUpright);
   folder.write("queries.json", R"({"version": 1, "points": [[0, 0, 0]]})");
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
   folder.write("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n");

@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "axis/shapes.h"
 #include "rig/rig.h"
 #include "runner/program.h"
+#include "support/numbers.h"
 
 namespace tendril::test {
 namespace {
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 using bind::PolygonMesh;
 using runner::RigCurve;
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 
 /// A closed prism along x from 0 to `length` over a polygon in the y, z plane, in `rings` equal pieces.
 PolygonMesh prism(const std::vector<Eigen::Vector2d>& outline, double length, std::uint32_t rings) {

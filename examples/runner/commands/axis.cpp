@@ -14,7 +14,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct AxisArguments {
   std::string mesh, out, picture, up = "y";
   axis::AxisOptions find;
   scene::ViewOptions view;
@@ -87,7 +87,7 @@ OrderedJson to_json(const axis::AxisTree& tree, double seconds) {
           {"wall_s", seconds}};
 }
 
-void tell(const Options& options, const axis::AxisTree& tree, double seconds) {
+void tell(const AxisArguments& options, const axis::AxisTree& tree, double seconds) {
   const axis::AxisReport& report = tree.report;
   std::printf("%s: %zu curve(s), %zu loop(s), %zu twig(s) pruned, %.2f s\n", options.mesh.c_str(),
               tree.curves.size(), report.loops, report.twigs.size(), seconds);
@@ -105,7 +105,7 @@ void tell(const Options& options, const axis::AxisTree& tree, double seconds) {
   }
 }
 
-void draw_tree(const Options& options, const bind::PolygonMesh& mesh, const axis::AxisTree& tree) {
+void draw_tree(const AxisArguments& options, const bind::PolygonMesh& mesh, const axis::AxisTree& tree) {
   CameraFit fit(options.view);
   fit.include(mesh.points);
   Drawing drawing{&mesh, {}, {}};
@@ -118,7 +118,7 @@ void draw_tree(const Options& options, const bind::PolygonMesh& mesh, const axis
   write_file_whole(options.picture, png_bytes(picture));
 }
 
-int find(const Options& options) {
+int find(const AxisArguments& options) {
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
   axis::AxisTree tree;
@@ -147,7 +147,7 @@ int find(const Options& options) {
 
 Command axis_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("axis", "Finds a tree of curve-pairs along the middle of a closed mesh");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AxisArguments>();
   axis::AxisOptions& how = options->find;
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "curve file (JSON) to write")->required();

@@ -16,7 +16,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct BindArguments {
   std::string mesh, picture;
   std::vector<std::string> axes, poses;
   ModeFlags mode;
@@ -157,7 +157,7 @@ Picture picture_of(const bind::PolygonMesh& mesh, const std::vector<CurvePair>& 
 }
 
 /// The mesh at rest with its ambiguous points in blue, and posed with its edges' stretch in colour.
-void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Binding& binding,
+void draw_bound(const BindArguments& options, bind::PolygonMesh mesh, const bind::Binding& binding,
                 const Axes& axes, int threads) {
   const std::vector<Vec3> rest = mesh.points;
   mesh.point_colors.assign(mesh.points.size(), bind::Color{200, 200, 196, 255});
@@ -173,7 +173,7 @@ void draw_bound(const Options& options, bind::PolygonMesh mesh, const bind::Bind
   write_file_whole(options.picture, png_bytes(contact_sheet(panels, captions, 2)));
 }
 
-void tell_binding(const Options& options, const bind::BindReport& report, const Axes& axes,
+void tell_binding(const BindArguments& options, const bind::BindReport& report, const Axes& axes,
                   std::size_t points) {
   std::printf("%s: %zu points, %zu ambiguous, %zu gated, %zu shares, rest error %.1e\n", options.mesh.c_str(),
               points, report.ambiguous.size(), report.gated.size(), report.shares, report.rest_error);
@@ -197,7 +197,8 @@ void tell_cost(const bind::JudgeCost& cost, std::size_t axes) {
 }
 
 /// \return  whether the pose is right
-bool judge_pose(const Options& options, const Axes& axes, const bind::TearJudge& judged, OrderedJson& out) {
+bool judge_pose(const BindArguments& options, const Axes& axes, const bind::TearJudge& judged,
+                OrderedJson& out) {
   const bind::JudgeReport report = judged.judge(axes.posed);
   std::vector<Vec3> points(judged.mesh().points.size());
   const int threads = thread_count(options.threads);
@@ -210,7 +211,7 @@ bool judge_pose(const Options& options, const Axes& axes, const bind::TearJudge&
   return std::string(verdict_of(report, distortion)) == "right";
 }
 
-int judge(const Options& options) {
+int judge(const BindArguments& options) {
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes = read_axes(options.axes, options.poses);
@@ -242,7 +243,7 @@ int judge(const Options& options) {
 Command bind_command(CLI::App& parent) {
   auto* app = parent.add_subcommand(
       "bind", "Binds a mesh to axes and judges by refinement whether a pose tears or crumples it");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BindArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--axis", options->axes,
                   "curve file (JSON) at rest, of one or several curve-pairs; may be given several times")

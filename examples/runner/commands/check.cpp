@@ -10,7 +10,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct CheckArguments {
   std::string mesh;
   bool json = false, strict = false;
 };
@@ -72,7 +72,7 @@ void print_text(const std::string& path, const bind::MeshReport& r) {
   count(r.inside_out, "closed part(s) inside out");
 }
 
-int check(const Options& options) {
+int check(const CheckArguments& options) {
   const bind::PolygonMesh mesh = options.strict ? bind::read_mesh(options.mesh) : read_mesh(options.mesh);
   const bind::MeshReport report = bind::inspect(mesh);
   if (options.json) {
@@ -87,7 +87,7 @@ int check(const Options& options) {
 
 Command check_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("check", "What a mesh file holds, and what is odd about it");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_flag("--json", options->json, "print JSON, with the ids of all that is odd");
   app->add_flag("--strict", options->strict, "refuse what is read with a note otherwise");

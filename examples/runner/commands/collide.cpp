@@ -11,7 +11,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct CollideArguments {
   std::string mesh, queries, out;
   Posing posing;
   ModeFlags mode;
@@ -40,7 +40,7 @@ Told tell(Target& target, Target& other) {
           open(found.parts_of_other) + open(found.parts_of_target)};
 }
 
-Told carry_out(const Options& options) {
+Told carry_out(const CollideArguments& options) {
   Posing posing = options.posing;
   posing.mode = options.mode.mode();
   if (is_json(options.queries)) {
@@ -52,7 +52,7 @@ Told carry_out(const Options& options) {
   return tell(target, other);
 }
 
-int collide(const Options& options) {
+int collide(const CollideArguments& options) {
   const Told told = carry_out(options);
   if (!options.out.empty()) write_file_whole(options.out, told.json.dump(2) + "\n");
   if (options.json) {
@@ -71,7 +71,7 @@ Command collide_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("collide",
                                     "What meets a mesh, exactly: points, balls, segments, triangles, "
                                     "or a second mesh");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CollideArguments>();
   app->add_option("mesh", options->mesh, "scene file (JSON) with a mesh, or a mesh (OFF, PLY, OBJ, STL)")
       ->required();
   app->add_option("queries", options->queries, "file of queries (JSON), or a mesh (OFF, PLY)")->required();

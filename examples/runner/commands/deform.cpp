@@ -14,7 +14,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct DeformArguments {
   std::string mesh, axis, pose, out;
   ModeFlags mode;
   bool equal_length = false, json = false;
@@ -53,7 +53,7 @@ void warn(const std::string& out, const bind::Distortion& d) {
       worst.centre.y(), worst.centre.z());
 }
 
-void tell(const Options& options, const bind::BindReport& report, const bind::Distortion& distortion,
+void tell(const DeformArguments& options, const bind::BindReport& report, const bind::Distortion& distortion,
           std::size_t points) {
   if (options.json) {
     print({{"mesh", options.out},
@@ -71,7 +71,7 @@ void tell(const Options& options, const bind::BindReport& report, const bind::Di
   }
 }
 
-int deform(const Options& options) {
+int deform(const DeformArguments& options) {
   const int threads = thread_count(options.threads);
   bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes =
@@ -96,7 +96,7 @@ int deform(const Options& options) {
 
 Command deform_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("deform", "Deforms a mesh by posing its axis");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DeformArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--axis", options->axis, "curve file (JSON) of one or several curve-pairs at rest")
       ->required();

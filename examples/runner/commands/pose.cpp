@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PoseArguments {
   std::string axis, out;
   std::vector<std::string> bends, twists;
 };
@@ -134,7 +134,7 @@ void require_frames(const Limb& limb, const scene::CurveFile& rest) {
     throw InvalidInput("'" + limb.name + "'", describe(*jump, "nodes"), "a smaller angle, or more nodes");
 }
 
-Json to_json(const std::vector<Vec3>& points) {
+Json array_of(const std::vector<Vec3>& points) {
   Json out = Json::array();
   for (const Vec3& p : points) out.push_back(Json::array({p.x(), p.y(), p.z()}));
   return out;
@@ -149,7 +149,7 @@ std::string text_of(const Json& file) {
   return text + "\n]}\n";
 }
 
-int run_pose(const Options& options) {
+int run_pose(const PoseArguments& options) {
   const std::vector<scene::CurveFile> rest = scene::read_curves(options.axis);
   std::vector<Limb> limbs = read_limbs(rest);
   for (const std::string& text : options.bends) set("--bend", text, limbs, &Limb::bend);
@@ -160,8 +160,8 @@ int run_pose(const Options& options) {
   pose_all(curves, limbs);
   for (std::size_t k = 0; k < limbs.size(); ++k) {
     require_frames(limbs[k], rest[k]);
-    curves[k]["points"] = to_json(limbs[k].posed);
-    curves[k]["orientation"] = to_json(limbs[k].side);
+    curves[k]["points"] = array_of(limbs[k].posed);
+    curves[k]["orientation"] = array_of(limbs[k].side);
   }
   write_file_whole(options.out, text_of(file.contains("curves") ? file : alone[0]));
   std::cout << options.out << ": " << limbs.size() << " curve(s): " << names_of(limbs) << '\n';
@@ -173,7 +173,7 @@ int run_pose(const Options& options) {
 Command pose_command(CLI::App& parent) {
   auto* app = parent.add_subcommand(
       "pose", "Bends and twists the curve-pairs of a file; what is joined to them goes along");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PoseArguments>();
   app->add_option("axis", options->axis, "curve file (JSON) at rest, of one or several chains of points")
       ->required();
   app->add_option("--bend", options->bends,

@@ -11,7 +11,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct ProjectArguments {
   std::string curve, points;
   bool json = false;
 };
@@ -66,7 +66,7 @@ void print_row(const Found& found) {
   std::cout << to_string(p.kind) << ',' << runner::to_string(found.status) << '\n';
 }
 
-int project(const Options& options) {
+int project(const ProjectArguments& options) {
   const scene::CurveFile curve = scene::read_curve(options.curve);
   const std::vector<Vec3> points = read_points_csv(options.points);
   const std::vector<Projection> nearest = CurveProjector(curve.pair.primary()).nearest(points);
@@ -89,7 +89,7 @@ int project(const Options& options) {
 Command project_command(CLI::App& parent) {
   auto* app =
       parent.add_subcommand("project", "Nearest points on a curve-pair's primary curve, in axial space");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ProjectArguments>();
   app->add_option("curve", options->curve, "curve file (JSON)")->required();
   app->add_option("points", options->points, "points, x,y,z a line (CSV)")->required();
   app->add_flag("--json", options->json, "print JSON instead of CSV");

@@ -14,7 +14,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct RenderArguments {
   std::string mesh, out, axis, size = "960x720", view = "35,12", up = "y";
   int samples = scene::ViewOptions{}.samples;
   int threads = 0;
@@ -35,7 +35,7 @@ std::pair<T, T> two(const std::string& option, const std::string& text, char sep
   throw InvalidInput(option, "'" + text + "'", expected);
 }
 
-scene::ViewOptions read_view(const Options& options) {
+scene::ViewOptions read_view(const RenderArguments& options) {
   scene::ViewOptions view;
   view.up = up_direction(options.up);
   const auto angles = two<double>("--view", options.view, ',', "yaw,pitch in degrees");
@@ -57,7 +57,7 @@ scene::ViewOptions read_view(const Options& options) {
   return view;
 }
 
-int render(const Options& options) {
+int render(const RenderArguments& options) {
   const scene::ViewOptions view = read_view(options);
   const int threads = thread_count(options.threads);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
@@ -93,7 +93,7 @@ int thread_count(int asked) {
 
 Command render_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("render", "A picture of a mesh or a frame, without a display");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "PNG file to write")->required();
   app->add_option("--axis", options->axis, "curve file (JSON) to draw over the mesh, with nodes and names");

@@ -9,7 +9,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct RepairArguments {
   std::string mesh, out;
   bool keep_points = false, keep_degenerate = false, keep_duplicates = false, keep_orientation = false,
        keep_isolated = false, json = false;
@@ -68,7 +68,7 @@ OrderedJson to_json(const bind::Repaired& repaired) {
           {"left", left(repaired.left)}};
 }
 
-int run(const Options& options) {
+int run(const RepairArguments& options) {
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const bind::Repaired repaired = bind::repair(mesh, {.merge_points = !options.keep_points,
                                                       .drop_degenerate = !options.keep_degenerate,
@@ -96,7 +96,7 @@ int run(const Options& options) {
 Command repair_command(CLI::App& parent) {
   auto* app =
       parent.add_subcommand("repair", "Mends what check finds odd about a mesh, and says what it did");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RepairArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "OFF or PLY file to write")->required();
   app->add_flag("--keep-points", options->keep_points, "merge no points of the same place");

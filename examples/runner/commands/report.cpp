@@ -13,7 +13,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::string scene, out;
   std::vector<std::string> methods;
   std::vector<double> tolerances{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
@@ -31,7 +31,7 @@ Method method_of(const std::string& name) {
 }
 
 /// Methods of order 1 are comparators and only run when they are asked for.
-std::vector<Method> methods_for(const Options& options) {
+std::vector<Method> methods_for(const ReportArguments& options) {
   std::vector<Method> out;
   for (const std::string& name : options.methods) out.push_back(method_of(name));
   if (!out.empty()) return out;
@@ -44,7 +44,7 @@ void check(const char* name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) throw InvalidInput(name, shortest(value), "a positive number");
 }
 
-Plan plan_for(const Options& options) {
+Plan plan_for(const ReportArguments& options) {
   Plan out;
   out.methods = methods_for(options);
   out.tolerances = options.tolerances;
@@ -90,7 +90,7 @@ Results carry_out_with_progress(Study& study, const Plan& plan) {
   });
 }
 
-int report(const Options& options) {
+int report(const ReportArguments& options) {
   const Interrupt interrupt;
   const scene::SceneFile file = scene::read_scene(options.scene);
   const System system = system_of(file);
@@ -124,7 +124,7 @@ int report(const Options& options) {
 
 Command report_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("report", "Error against run time of a scene, by method and tolerance");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReportArguments>();
   app->add_option("scene", options->scene, "scene file (JSON); its mesh is left out")->required();
   app->add_option("--out", options->out, "folder for report.json and report.svg; made when it is not there")
       ->required();

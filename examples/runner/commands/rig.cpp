@@ -13,7 +13,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct RigArguments {
   std::string mesh, out, picture;
   RigAxes axes;
   RigOptions rig;
@@ -36,7 +36,7 @@ Strand ring(const Frame& frame, const Vec3& centre, const RigSection& section, d
 }
 
 /// Curves red, masses dark, sections seen green and guessed grey, held nodes as large yellow balls.
-void draw_rig(const Options& options, const bind::PolygonMesh& mesh, const Rig& rig) {
+void draw_rig(const RigArguments& options, const bind::PolygonMesh& mesh, const Rig& rig) {
   const Vec3f red(0.62F, 0.05F, 0.03F), dark(0.06F, 0.05F, 0.05F), green(0.05F, 0.35F, 0.10F),
       grey(0.30F, 0.30F, 0.30F), yellow(0.80F, 0.55F, 0.02F);
   scene::ViewOptions view = options.view;
@@ -96,7 +96,7 @@ OrderedJson to_json(const Rig& rig, double seconds) {
           {"wall_s", seconds}};
 }
 
-std::string command_of(const Options& options) {
+std::string command_of(const RigArguments& options) {
   std::string out = "tendril rig " + options.mesh;
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + name + " " + value;
@@ -113,7 +113,7 @@ std::string command_of(const Options& options) {
   return out;
 }
 
-int rig(const Options& options) {
+int rig(const RigArguments& options) {
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
   RigOptions how = options.rig;
@@ -137,7 +137,7 @@ int rig(const Options& options) {
 Command rig_command(CLI::App& parent) {
   auto* app = parent.add_subcommand(
       "rig", "Makes a scene of a mesh: axes, sections, material, supports, gravity and wind");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RigArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "scene file (JSON) to write")->required();
   app->add_option("--axis", options->axes.file, "curve file to start from, instead of axes that are found");

@@ -20,7 +20,7 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string scene, out, mesh;
   int threads = 0;
   ModeFlags mode;
@@ -36,7 +36,7 @@ bool is_mesh(const std::string& path) {
 }
 
 /// A mesh in place of a scene gets one, as `tendril rig` makes it, beside what the run writes.
-std::string scene_of_mesh(const Options& options) {
+std::string scene_of_mesh(const RunArguments& options) {
   const std::string out = options.out + "/scene.json";
   RigOptions how;
   how.threads = thread_count(options.threads);
@@ -47,7 +47,7 @@ std::string scene_of_mesh(const Options& options) {
   return out;
 }
 
-scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
+scene::SceneFile read_all(const RunArguments& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
   scene::SceneFile file = scene::read_scene(is_mesh(options.scene) ? scene_of_mesh(options) : options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
@@ -70,7 +70,7 @@ Report simulate(scene::SceneRun& scene, Recorder& recorder, Extras& extras, Phas
       });
 }
 
-void draw_all(const Options& options, const scene::SceneRun& scene, Recorder& recorder, Extras& extras,
+void draw_all(const RunArguments& options, const scene::SceneRun& scene, Recorder& recorder, Extras& extras,
               Report& report, Phases& phases, Progress& progress) {
   const Phases::Timer timer(phases, Phases::draw);
   const PictureOptions how{thread_count(options.threads), options.mark_ambiguous};
@@ -86,11 +86,11 @@ void draw_all(const Options& options, const scene::SceneRun& scene, Recorder& re
 }
 
 /// The scene's name without folders and ending, as films are named.
-std::string stem(const Options& options) {
+std::string stem(const RunArguments& options) {
   return std::filesystem::path(options.scene).stem().string();
 }
 
-void tell(const Options& options, const std::string& summary, const scene::SceneRun& scene,
+void tell(const RunArguments& options, const std::string& summary, const scene::SceneRun& scene,
           const Phases& phases, const Report& report) {
   if (options.json) {
     std::cout << summary << '\n';
@@ -105,7 +105,7 @@ void tell(const Options& options, const std::string& summary, const scene::Scene
   }
 }
 
-int run(const Options& options) {
+int run(const RunArguments& options) {
   check(options.extras);
   const Interrupt interrupt;
   const int threads = thread_count(options.threads);
@@ -158,7 +158,7 @@ void add_extras(CLI::App& app, ExtraFlags& extras) {
 
 Command run_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("run", "Moves a scene's curve-pairs, and the mesh with them");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   app->add_option("scene", options->scene,
                   "scene file (JSON); or a mesh (OFF, PLY, OBJ, STL), which `tendril rig` is asked for first")
       ->required();

@@ -16,14 +16,14 @@
 namespace tendril::runner {
 namespace {
 
-struct Options {
+struct StaticsArguments {
   std::string scene, out, mesh;
   StaticsOptions statics;
   int threads = 0;
   bool nearest = false, no_pictures = false, double_precision = false, json = false;
 };
 
-scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phases& phases) {
+scene::SceneFile read_all(const StaticsArguments& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
   scene::SceneFile file = scene::read_scene(options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
@@ -33,7 +33,7 @@ scene::SceneFile read_all(const Options& options, bind::PolygonMesh& mesh, Phase
 }
 
 /// Where anchors move, they are followed to the end of the scene's duration.
-StaticsOptions search_options(const Options& options, const scene::SceneFile& file) {
+StaticsOptions search_options(const StaticsArguments& options, const scene::SceneFile& file) {
   StaticsOptions out = options.statics;
   if (!out.first_load) out.first_load = file.statics.first_load;
   const auto& anchors = file.scene.anchors;
@@ -89,8 +89,8 @@ OrderedJson summarize(const scene::SceneFile& file, const System& system, const 
 
 /// The masses, the mesh and pictures of the state found.
 /// \return  the names of the files
-std::vector<std::string> write_state(const Options& options, scene::SceneFile file, const Equilibrium& found,
-                                     bind::PolygonMesh mesh, Phases& phases) {
+std::vector<std::string> write_state(const StaticsArguments& options, scene::SceneFile file,
+                                     const Equilibrium& found, bind::PolygonMesh mesh, Phases& phases) {
   file.outputs = {found.state.time};
   file.panels = 1;
   const int threads = thread_count(options.threads);
@@ -110,7 +110,7 @@ std::vector<std::string> write_state(const Options& options, scene::SceneFile fi
   return recorder.files();
 }
 
-void tell(const Options& options, const OrderedJson& summary, const Equilibrium& found) {
+void tell(const StaticsArguments& options, const OrderedJson& summary, const Equilibrium& found) {
   if (options.json) {
     print(summary);
   } else {
@@ -126,7 +126,7 @@ void tell(const Options& options, const OrderedJson& summary, const Equilibrium&
   }
 }
 
-int statics(const Options& options) {
+int statics(const StaticsArguments& options) {
   const Interrupt interrupt;
   Phases phases;
   bind::PolygonMesh mesh;
@@ -158,7 +158,7 @@ int statics(const Options& options) {
 
 Command statics_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("statics", "Finds a scene's equilibrium, and says whether it is stable");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StaticsArguments>();
   app->add_option("scene", options->scene, "scene file (JSON)")->required();
   app->add_option("--out", options->out, "folder for masses, mesh, pictures and summary of the equilibrium");
   app->add_option("--mesh", options->mesh, "mesh (OFF, PLY, OBJ, STL) to use instead of the scene's");

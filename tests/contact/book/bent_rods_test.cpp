@@ -3,8 +3,7 @@
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/statics.h>
 
-#include <numbers>
-
+#include "support/numbers.h"
 #include "support/rods.h"
 
 /// Rods bent between plates, and off floors, against the elastica's known digits. B, the bending
@@ -12,7 +11,7 @@
 namespace tendril::contact {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 constexpr double kRadius = 1e-3, kRange = 1e-3;
 
 /// Round, of bending stiffness 1, through points, of weight `weight` a length.

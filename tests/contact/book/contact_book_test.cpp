@@ -4,8 +4,7 @@
 #include <tendril/dynamics/simulation.h>
 #include <tendril/dynamics/statics.h>
 
-#include <numbers>
-
+#include "support/numbers.h"
 #include "support/rods.h"
 
 /// References for contact with known digits: one degree of freedom in a potential, friction, beams on
@@ -13,7 +12,7 @@
 namespace tendril::contact {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using tendril::test::kPi;
 
 const ContactMemory& memory_of(const State& state, std::size_t force = 0) {
   return dynamic_cast<const ContactMemory&>(*state.memory.at(force));
