@@ -19,6 +19,7 @@ struct DeformArguments {
   ModeFlags mode;
   bool equal_length = false, json = false;
   int threads = 0;
+  double band = bind::BindOptions{}.band;
 };
 
 /// The weighted sum over a point's shares, each at the same length along its posed axis as at rest.
@@ -47,8 +48,8 @@ void warn(const std::string& out, const bind::Distortion& d) {
   std::fprintf(
       stderr,
       "tendril: note: %s: the pose spoils %.2g %% of the mesh: %zu triangle(s) folded, %zu stretched and "
-      "%zu crushed more than tenfold, in %zu zone(s), the largest about %g %g %g; 'tendril bind' tells a "
-      "tear from a steep place\n",
+      "%zu crushed more than tenfold, in %zu zone(s), the largest about %g %g %g; a wider --band spreads "
+      "a steep place, 'tendril bind' tells it from a tear\n",
       out.c_str(), 100.0 * d.spoilt, d.folded, d.stretched, d.crushed, d.zones.size(), worst.centre.x(),
       worst.centre.y(), worst.centre.z());
 }
@@ -76,7 +77,8 @@ int deform(const DeformArguments& options) {
   bind::PolygonMesh mesh = read_mesh(options.mesh);
   const Axes axes =
       read_axes({options.axis}, {options.pose}, options.equal_length ? "" : "the same, or --equal-length");
-  const bind::Binding binding(axes.rest, mesh, {.mode = options.mode.mode(), .threads = threads});
+  const bind::Binding binding(axes.rest, mesh,
+                              {.mode = options.mode.mode(), .band = options.band, .threads = threads});
   std::vector<Vec3> points(mesh.points.size());
   if (options.equal_length) {
     deform_at_equal_length(binding, axes, points);
@@ -103,6 +105,9 @@ Command deform_command(CLI::App& parent) {
   app->add_option("--pose", options->pose, "curve file (JSON) of the same posed")->required();
   app->add_option("--out", options->out, "PLY or OFF file to write")->required();
   options->mode.add_to(*app);
+  app->add_option("--band", options->band,
+                  "width of transitions, in distances to the axis; a wider one folds less")
+      ->capture_default_str();
   app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
   app->add_flag("--json", options->json, "print JSON");
