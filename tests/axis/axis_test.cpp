@@ -112,6 +112,43 @@ TEST(Axis, PrunesWhatReachesLessFarThanAsked) {
   EXPECT_GE(full.curves.size(), 2U);
 }
 
+/// A trunk on legs, one of them a little shorter than the one beside it.
+bind::PolygonMesh with_legs(double shorter) {
+  const Field field = [=](const Vec3& p) {
+    double least = capsule_field(p, Vec3(-1, 0, 0), Vec3(1, 0, 0), 0.25);
+    for (const double side : {-1.0, 1.0})
+      least = std::min(least, capsule_field(p, Vec3(0.2, 0, 0.3 * side),
+                                            Vec3(0.2, side < 0 ? -0.7 : -0.7 + shorter, 0.3 * side), 0.1));
+    return least;
+  };
+  return Isosurface(field, Vec3(-1.31, -0.82, -0.43), Vec3(1.3, 0.3, 0.45), 0.0501).mesh();
+}
+
+/// They reach 3.90 and 4.01 times as far as the trunk is wide where they branch off.
+TEST(Axis, KeepsBothOrNoneOfTwoLegsThatAreNearlyMirrorImages) {
+  const bind::PolygonMesh mesh = with_legs(0.02);
+  axis::AxisOptions options;
+  std::vector<std::size_t> curves;
+  for (const double prune : {3.0, 3.95, 4.3}) {
+    options.prune = prune;
+    curves.push_back(axis::find_axis(mesh, options).curves.size());
+  }
+  EXPECT_EQ(curves, (std::vector<std::size_t>{3, 3, 1}));
+}
+
+TEST(Axis, SaysWhatSkinHasNoCurveNear) {
+  axis::AxisOptions options;
+  EXPECT_GT(axis::find_axis(three_tubes()).report.coverage, 0.99);
+  options.prune = 20.0;
+  const axis::AxisTree bare = axis::find_axis(three_tubes(), options);
+  EXPECT_EQ(bare.status, axis::AxisStatus::uncovered);
+  EXPECT_NEAR(bare.report.coverage, 0.79, 0.01);  // the third tube has none, three radii of it aside
+  const Vec3 missed = bare.report.twigs.back().tip;
+  EXPECT_LT((bare.report.farthest - missed).norm(), 0.2);
+  EXPECT_FALSE(bare.reason.empty());
+  EXPECT_EQ(bare.curves.size(), 1U);
+}
+
 TEST(Axis, GrowsAndMovesWithTheMesh) {
   const bind::PolygonMesh mesh = capsule();
   const axis::AxisCurve here = axis::find_axis(mesh).curves[0];

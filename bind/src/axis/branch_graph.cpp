@@ -7,8 +7,10 @@ namespace tendril::axis {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
-constexpr double kBlunt = 0.4;  ///< a limb narrows less steeply, a way into a corner more
-constexpr double kFork = 1.3;   ///< prongs whose reaches differ by less are alike
+constexpr double kBlunt = 0.4;       ///< a limb narrows less steeply, a way into a corner more
+constexpr double kFork = 1.3;        ///< prongs whose reaches differ by less are alike
+constexpr double kAlike = 1.15;      ///< limbs whose lengths differ by less are alike
+constexpr double kLeastPart = 0.75;  ///< of the reach that is asked for: what has less is pruned
 
 Line reversed(Line line) {
   std::reverse(line.begin(), line.end());
@@ -115,19 +117,37 @@ std::vector<Leaf> leaves_of(const BranchGraph& graph, const Clearance& clearance
   return out;
 }
 
-/// The leaf of least reach; and, where a fork at the end of a limb is about to be cut, its other prong when
-/// that is hardly longer: neither goes on along the limb.
-std::vector<Leaf> least_leaves(const BranchGraph& graph, const Clearance& clearance) {
+/// Whether a limb beside a leaf is as long as it is and is kept, as the other of two legs that are nearly
+/// mirror images: they are not told apart by a hair.
+bool alike_to_kept(const Twig& least, const std::vector<Leaf>& leaves, double least_reach,
+                   const Clearance& clearance) {
+  if (least.reach < kLeastPart * least_reach) return false;
+  const double width = clearance(least.root), length = least.reach * width;
+  return std::any_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+    const double other_width = clearance(leaf.twig.root), other = leaf.twig.reach * other_width;
+    return leaf.twig.reach >= least_reach && std::max(length, other) <= kAlike * std::min(length, other) &&
+           (leaf.twig.root - least.root).norm() <= 2.0 * std::max(width, other_width);
+  });
+}
+
+/// The leaf of least reach of those to be pruned; and, where a fork at the end of a limb is about to be cut,
+/// its other prong when that is hardly longer: neither goes on along the limb.
+std::vector<Leaf> least_leaves(const BranchGraph& graph, double least_reach, const Clearance& clearance) {
   const std::vector<Leaf> leaves = leaves_of(graph, clearance);
-  if (leaves.empty()) return {};
-  const auto shorter = [](const Leaf& a, const Leaf& b) { return a.twig.reach < b.twig.reach; };
-  const Leaf least = *std::min_element(leaves.begin(), leaves.end(), shorter);
-  std::vector<Leaf> fork;
+  std::vector<Leaf> spurious;
   for (const Leaf& leaf : leaves)
-    if (leaf.root == least.root && leaf.branch != least.branch) fork.push_back(leaf);
-  if (graph.degrees()[least.root] != 3 || fork.size() != 1) return {least};
-  if (fork[0].twig.reach > kFork * least.twig.reach) return {least};
-  return {least, fork[0]};
+    if (leaf.twig.reach < least_reach && !alike_to_kept(leaf.twig, leaves, least_reach, clearance))
+      spurious.push_back(leaf);
+  if (spurious.empty()) return {};
+  const auto shorter = [](const Leaf& a, const Leaf& b) { return a.twig.reach < b.twig.reach; };
+  const Leaf least = *std::min_element(spurious.begin(), spurious.end(), shorter);
+  std::size_t beside = 0;
+  for (const Leaf& leaf : leaves) beside += leaf.root == least.root && leaf.branch != least.branch;
+  if (graph.degrees()[least.root] != 3 || beside != 1) return {least};
+  for (const Leaf& leaf : spurious)
+    if (leaf.root == least.root && leaf.branch != least.branch && leaf.twig.reach <= kFork * least.twig.reach)
+      return {least, leaf};
+  return {least};
 }
 
 /// The two halves of a line about the point `length` along it, which both hold.
@@ -220,8 +240,7 @@ BranchGraph branches_of(const Skeleton& skeleton) {
 std::vector<Twig> prune(BranchGraph& graph, double least_reach, const Clearance& clearance) {
   std::vector<Twig> out;
   for (;;) {
-    std::vector<Leaf> cut = least_leaves(graph, clearance);
-    std::erase_if(cut, [&](const Leaf& leaf) { return leaf.twig.reach >= least_reach; });
+    std::vector<Leaf> cut = least_leaves(graph, least_reach, clearance);
     if (cut.empty()) return out;
     for (const Leaf& leaf : cut) out.push_back(leaf.twig);
     std::sort(cut.begin(), cut.end(), [](const Leaf& a, const Leaf& b) { return a.branch > b.branch; });

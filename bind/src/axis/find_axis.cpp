@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "centre.h"
@@ -17,8 +18,10 @@
 namespace tendril::axis {
 namespace {
 
-constexpr std::size_t kSamples = 200;  ///< of a path to be fitted
-constexpr int kTries = 3;              ///< at a curve within the surface, each twice as close to the skeleton
+constexpr std::size_t kSamples = 200;   ///< of a path to be fitted
+constexpr double kLeastCoverage = 0.9;  ///< see AxisStatus::uncovered
+constexpr double kCovered = 3.0;        ///< radii, see AxisReport::coverage
+constexpr int kTries = 3;  ///< at a curve within the surface, each twice as close to the skeleton
 
 void check(const AxisOptions& options) {
   const auto require = [](bool right, const char* name, double value, const char* expected) {
@@ -130,6 +133,39 @@ class Fitter {
   std::vector<std::vector<std::size_t>> nodes_;  ///< of the vertices of each path
 };
 
+/// Distance to a chain over its radius there, the least.
+double radii_from(const AxisCurve& curve, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < curve.points.size(); ++k) {
+    const Vec3 edge = curve.points[k] - curve.points[k - 1];
+    const double part = std::clamp((p - curve.points[k - 1]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    const double radius = (1.0 - part) * curve.radius[k - 1] + part * curve.radius[k];
+    least = std::min(least, (curve.points[k - 1] + part * edge - p).norm() / radius);
+  }
+  return least;
+}
+
+/// How much of the skin has a curve near.
+void measure_coverage(const bind::PolygonMesh& mesh, const std::vector<AxisCurve>& curves,
+                      AxisReport& report) {
+  std::vector<double> area(mesh.points.size(), 0.0);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = mesh.face(f);
+    const Vec3& p = mesh.points[corner[0]];
+    const double size = (mesh.points[corner[1]] - p).cross(mesh.points[corner[2]] - p).norm();
+    for (const std::uint32_t i : corner) area[i] += size;
+  }
+  double near = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    double radii = std::numeric_limits<double>::infinity();
+    for (const AxisCurve& curve : curves) radii = std::min(radii, radii_from(curve, mesh.points[i]));
+    all += area[i];
+    if (radii <= kCovered) near += area[i];
+    if (radii > report.farthest_radii) report.farthest_radii = radii, report.farthest = mesh.points[i];
+  }
+  report.coverage = near / all;
+}
+
 /// Back to where the mesh was.
 void put_back(const UnitScaling& scaling, AxisTree& tree) {
   const auto move = [&](Vec3& p) { p = scaling.back(p); };
@@ -147,6 +183,7 @@ void put_back(const UnitScaling& scaling, AxisTree& tree) {
     twig.length *= scaling.scale;
   }
   std::for_each(tree.report.cuts.begin(), tree.report.cuts.end(), move);
+  move(tree.report.farthest);
 }
 
 void note_skeleton(const BranchGraph& graph, AxisReport& report) {
@@ -185,7 +222,14 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
   const double longest = paths.front().along.back();
   const double spacing = options.spacing ? *options.spacing / prepared.scaling.scale : longest / 40.0;
   tree.curves = Fitter(surface, options, spacing).run(std::move(paths));
+  measure_coverage(prepared.mesh, tree.curves, tree.report);
   put_back(prepared.scaling, tree);
+  if (tree.report.coverage < kLeastCoverage) {
+    tree.status = AxisStatus::uncovered;
+    tree.reason = std::to_string(std::lround(100.0 * (1.0 - tree.report.coverage))) +
+                  " % of the skin is farther from every curve than three times its radius, up to " +
+                  std::to_string(std::lround(tree.report.farthest_radii)) + " times";
+  }
   return tree;
 }
 
@@ -193,6 +237,8 @@ const char* to_string(AxisStatus status) {
   switch (status) {
     case AxisStatus::found:
       return "found";
+    case AxisStatus::uncovered:
+      return "uncovered";
     case AxisStatus::time_limit:
       return "time_limit";
     case AxisStatus::diverged:

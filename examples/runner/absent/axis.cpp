@@ -16,7 +16,8 @@ Command axis_command(CLI::App& parent) {
           }};
 }
 
-std::vector<RigCurve> find_curves(const bind::PolygonMesh&, const std::string& path, const RigAxes&) {
+std::vector<RigCurve> find_curves(const bind::PolygonMesh&, const std::string& path, const RigAxes&,
+                                  std::string&) {
   throw InvalidInput(path, "no axes: this program was built without TENDRIL_AXIS",
                      "--axis with a curve file");
 }

@@ -66,6 +66,9 @@ OrderedJson to_json(const axis::AxisReport& report) {
           {"contractions", report.contractions},
           {"skeleton", {{"ends", report.ends}, {"junctions", report.junctions}, {"loops", report.loops}}},
           {"cuts", to_json(report.cuts)},
+          {"coverage", report.coverage},
+          {"farthest", runner::to_json(report.farthest)},
+          {"farthest_radii", report.farthest_radii},
           {"twigs", twigs}};
 }
 
@@ -94,6 +97,10 @@ void tell(const AxisArguments& options, const axis::AxisTree& tree, double secon
   if (report.closed_holes + report.split_points + report.left_out_parts > 0)
     std::printf("  in a copy: %zu hole(s) closed, %zu point(s) split, %zu part(s) left out\n",
                 report.closed_holes, report.split_points, report.left_out_parts);
+  std::printf(
+      "  %.3g %% of the skin within three radii of a curve, the farthest at %.3g radii: %.3g %.3g %.3g\n",
+      100.0 * report.coverage, report.farthest_radii, report.farthest.x(), report.farthest.y(),
+      report.farthest.z());
   if (report.turned) std::printf("  the mesh is inside out: a copy was turned\n");
   for (std::size_t k = 0; k < tree.curves.size(); ++k) {
     const axis::AxisCurve& curve = tree.curves[k];
@@ -129,13 +136,13 @@ int find(const AxisArguments& options) {
     throw InvalidInput(options.mesh, error.reason(), error.expected() + " (--close, --largest-part)");
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (tree.status == axis::AxisStatus::found) {
+  if (!tree.curves.empty()) {
     write_file_whole(options.out, file_text(tree));
     if (!options.picture.empty()) draw_tree(options, mesh, tree);
   }
   if (options.json) {
     print(to_json(tree, seconds));
-  } else if (tree.status == axis::AxisStatus::found) {
+  } else if (!tree.curves.empty()) {
     tell(options, tree, seconds);
   }
   if (tree.status == axis::AxisStatus::found) return kDone;

@@ -80,6 +80,7 @@ OrderedJson to_json(const Rig& rig, double seconds) {
   for (const Held& h : rig.held)
     held.push_back({{"curve_pair", rig.curves[h.curve].name}, {"nodes", {h.first, h.last}}});
   return {{"curves", curves},
+          {"doubt", rig.doubt},
           {"up", runner::to_json(rig.stance.up)},
           {"held_as", rig.held_as},
           {"held", held},

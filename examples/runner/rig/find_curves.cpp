@@ -5,8 +5,8 @@
 
 namespace tendril::runner {
 
-std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path,
-                                  const RigAxes& how) {
+std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& how,
+                                  std::string& doubt) {
   axis::AxisOptions options;
   options.close = how.close;
   options.largest_part = how.largest_part;
@@ -18,10 +18,13 @@ std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::stri
     if (error.place() != "mesh") throw;
     throw InvalidInput(path, error.reason(), error.expected() + " (--close, --largest-part)");
   }
-  if (tree.status != axis::AxisStatus::found)
+  if (tree.status == axis::AxisStatus::uncovered) {
+    doubt = tree.reason;
+  } else if (tree.status != axis::AxisStatus::found) {
     throw InvalidInput(path,
                        std::string("no axis found, ") + axis::to_string(tree.status) + ": " + tree.reason,
                        "a mesh with limbs; --axis takes an axis drawn by hand");
+  }
   std::vector<RigCurve> out;
   for (axis::AxisCurve& curve : tree.curves) {
     const std::string name = out.empty() ? "axis" : "branch_" + std::to_string(out.size());

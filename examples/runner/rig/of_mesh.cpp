@@ -30,10 +30,13 @@ std::vector<RigCurve> read_rig_curves(const std::string& path) {
 Rig rig_mesh(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& axes,
              const RigOptions& options) {
   check(options);  // before axes are looked for, which takes its time
+  std::string doubt;
   std::vector<RigCurve> curves =
-      axes.file.empty() ? find_curves(mesh, path, axes) : read_rig_curves(axes.file);
+      axes.file.empty() ? find_curves(mesh, path, axes, doubt) : read_rig_curves(axes.file);
   try {
-    return make_rig(mesh, std::move(curves), options);
+    Rig rig = make_rig(mesh, std::move(curves), options);
+    rig.doubt = std::move(doubt);
+    return rig;
   } catch (const InvalidInput& error) {
     if (error.place().rfind("points[", 0) == 0)
       throw InvalidInput(path + ": " + error.place(), error.reason(), error.expected());
@@ -56,6 +59,7 @@ void tell(const Rig& rig) {
   }
   std::printf("%zu curve-pair(s), %zu nodes; sections measured at %zu, taken from others at %zu\n",
               rig.curves.size(), nodes, nodes - unseen, unseen);
+  if (!rig.doubt.empty()) std::printf("in doubt: %s\n", rig.doubt.c_str());
   std::printf("%s, %.3g kg, %.3g m large%s: a unit of the mesh is %.3g m\n", rig.material.name, rig.mass,
               rig.size, rig.size_given ? "" : " (guessed)", rig.unit);
   std::printf("up: %s%s; held: %s", direction_name(rig.stance.up).c_str(), rig.up_guessed ? " (guessed)" : "",

@@ -13,7 +13,9 @@ struct RigAxes {
 
 /// The axes that `tendril axis` finds; InvalidInput where it finds none.
 /// \param path  the mesh's, for messages
-std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& how);
+/// \param doubt  says what speaks against them, if anything
+std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& how,
+                                  std::string& doubt);
 
 /// A mesh on its axes.
 Rig rig_mesh(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& axes,

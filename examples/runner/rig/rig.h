@@ -27,6 +27,7 @@ struct RigOptions {
 /// metres.
 struct Rig {
   std::vector<RigCurve> curves;
+  std::string doubt;  ///< what speaks against the curves, if anything
   Body body{};
   Stance stance{};
   bool up_guessed = false;

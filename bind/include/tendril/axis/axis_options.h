@@ -15,7 +15,8 @@ struct AxisOptions {
   bool largest_part = false;
 
   /// An end branch of the skeleton is pruned when its tip is less far from where it branches off than this
-  /// many times the distance to the surface there. At least 0; 0 keeps all.
+  /// many times the distance to the surface there, and less than 3/4 of it or no limb beside it is alike: as
+  /// long within 15 %, and kept. At least 0; 0 keeps all.
   double prune = 2.0;
   /// Distance between the nodes of the curves, approximately; by default a fortieth of the longest curve.
   /// Above 0.

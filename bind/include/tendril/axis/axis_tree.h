@@ -51,11 +51,17 @@ struct AxisReport {
   std::size_t loops = 0;           ///< independent ones, before they are cut open: the genus of the surface
   std::vector<Twig> twigs;         ///< in the order they were cut off
   std::vector<Vec3> cuts;  ///< where loops were cut open: two curves, or one curve's two ends, meet there
+  /// Share of the skin's area no farther from each point's nearest curve than three times the distance there
+  /// to the surface, the nearest by that ratio.
+  double coverage = 0.0;
+  Vec3 farthest = Vec3::Zero();  ///< the point of the skin whose ratio is the largest
+  double farthest_radii = 0.0;   ///< that ratio
 };
 
 /// Outcome of find_axis.
 enum class AxisStatus {
-  found,       ///< at least one curve
+  found,       ///< at least one curve, and the skin has curves near
+  uncovered,   ///< curves, but AxisReport::coverage is below 0.9
   time_limit,  ///< no curves: see AxisOptions::time_limit
   diverged     ///< no curves: the contraction left the finite numbers
 };
@@ -65,7 +71,7 @@ TENDRIL_AXIS_API const char* to_string(AxisStatus status);
 /// A tree of curves. Parents come before their children; the first curve is the longest path through the
 /// skeleton.
 struct AxisTree {
-  AxisStatus status = AxisStatus::found;  ///< the curves are empty unless found
+  AxisStatus status = AxisStatus::found;  ///< the curves are empty unless found or uncovered
   std::string reason;                     ///< one sentence, unless found
   std::vector<AxisCurve> curves;          ///< parents first
   AxisReport report;                      ///< filled as far as the work went
