@@ -1,7 +1,7 @@
 /// Is each point of a skin bound to the limb that ways through the body lead to, and does no pose crumple it?
 ///
 ///     limb_sweep [--seed S] [--count N] [--meshes DIR] [--only NAME] [--cells C] [--joints R] [--band B]
-///                [--zones PERCENT]
+///                [--zones PERCENT] [--splits 1]
 ///
 /// N generated bodies of five kinds in turn, then the closed meshes of DIR on the axes that are found in them. A
 /// point is bound to the limb with the most of its weight. It is judged where it is farther than R = 2 radii of
@@ -14,10 +14,16 @@
 /// radius of the centre of curvature of its own posed axis, nor within three radii of where the axis of a
 /// handle is cut open, which bending one half of tears apart.
 ///
-/// Fails where a point is wrong, or where at 60 degrees the share in brackets is above 0.1 %, or PERCENT.
+/// With --splits 1, edges are split at their middles once and again, and the mesh bound anew: how far that moves
+/// the points of the first mesh, over its diagonal, at 60 degrees.
+///
+/// Fails where a point is wrong; where at 60 degrees the share in brackets is above 0.1 %, or PERCENT; or where
+/// the first split moves a point by more than 0.1 % of the diagonal, or the second by more than a quarter of
+/// the first.
 #include <tendril/bind/binding.h>
 #include <tendril/bind/distortion.h>
 #include <tendril/bind/import.h>
+#include <tendril/bind/judge.h>
 #ifdef TENDRIL_WITH_AXIS
 #include <tendril/axis/find_axis.h>
 #endif
@@ -28,6 +34,7 @@
 
 #include "limbs/bodies.h"
 #include "limbs/ways_through_body.h"
+#include "support/numbers.h"
 
 namespace tendril::test {
 namespace {
@@ -39,12 +46,14 @@ struct Options {
   double band = 0.25;
   double zones = 1e-3;
   double joints = 2.0;
+  bool splits = false;
   std::string only, meshes;
 };
 
 struct Found {
   std::size_t points = 0, judged = 0, wrong = 0;
   double spoilt[3]{}, crumpled[3]{};
+  double moved[2]{};  ///< by the first and the second split, over the diagonal
 };
 
 std::uint32_t limb_of(const bind::Binding& binding, std::size_t point, std::size_t limbs) {
@@ -105,7 +114,7 @@ Found judge(const Body& body, const Options& options) {
   const double angles[]{30.0, 60.0, 120.0};
   for (std::size_t l = 0; l < rest.size(); ++l)
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::vector<CurvePair> posed = bent(body.limbs, l, angles[a] * 0.017453292519943295);
+      const std::vector<CurvePair> posed = bent(body.limbs, l, angles[a] * kPi / 180.0);
       binding.update(posed, out);
       const bind::Distortion d = bind::measure_distortion(binding, rest, body.mesh, posed, out);
       const auto spared = [&](std::uint32_t face) {
@@ -135,16 +144,41 @@ Found judge(const Body& body, const Options& options) {
   return found;
 }
 
+/// How far points of the mesh are from where they are when bound with the edges split once, and those from
+/// twice, each limb bent by 60 degrees; of the diagonal, the most.
+void split(const Body& body, const Options& options, Found& found) {
+  const std::vector<CurvePair> rest = pairs_of(body.limbs);
+  const std::size_t points = body.mesh.points.size();
+  std::vector<std::vector<Vec3>> before(rest.size());
+  bind::PolygonMesh mesh = body.mesh;
+  for (int k = 0; k <= 2; ++k) {
+    if (k > 0) mesh = bind::split_at_middles(mesh);
+    const bind::Binding binding(rest, mesh, {.band = options.band, .threads = 2});
+    std::vector<Vec3> out(mesh.points.size());
+    for (std::size_t l = 0; l < rest.size(); ++l) {
+      binding.update(bent(body.limbs, l, kPi / 3.0), out);
+      for (std::size_t i = 0; k > 0 && i < points; ++i)
+        found.moved[k - 1] = std::max(found.moved[k - 1], (out[i] - before[l][i]).norm());
+      before[l].assign(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(points));
+    }
+  }
+  for (double& moved : found.moved) moved /= bind::bounding_diagonal(body.mesh.points);
+}
+
 bool tell(const Body& body, const Options& options) {
   if (!options.only.empty() && body.name.find(options.only) == std::string::npos) return true;
-  const Found f = judge(body, options);
+  Found f = judge(body, options);
+  if (options.splits) split(body, options, f);
   std::printf("%-18s %7zu points %3zu limbs  judged %5.1f %%  wrong %5zu", body.name.c_str(), f.points,
               body.limbs.size(), 100.0 * double(f.judged) / double(f.points), f.wrong);
   for (std::size_t a = 0; a < 3; ++a)
     std::printf("  %s %.4f (%.4f)%s", a == 0 ? "spoilt" : "", 100.0 * f.spoilt[a], 100.0 * f.crumpled[a],
-                a == 2 ? " %\n" : "");
+                a == 2 ? " %" : "");
+  if (options.splits) std::printf("  splits move %.1e, %.1e", f.moved[0], f.moved[1]);
+  std::printf("\n");
   std::fflush(stdout);
-  return f.wrong == 0 && f.crumpled[1] <= options.zones;
+  return f.wrong == 0 && f.crumpled[1] <= options.zones && f.moved[0] <= 1e-3 &&
+         f.moved[1] <= std::max(1e-9, 0.25 * f.moved[0]);
 }
 
 #ifdef TENDRIL_WITH_AXIS
@@ -191,6 +225,7 @@ int main(int count, char** words) {
     if (word == "--count") options.count = std::atoi(words[i + 1]);
     if (word == "--cells") options.cells = std::atoi(words[i + 1]);
     if (word == "--band") options.band = std::atof(words[i + 1]);
+    if (word == "--splits") options.splits = std::atoi(words[i + 1]) != 0;
     if (word == "--zones") options.zones = 0.01 * std::atof(words[i + 1]);
     if (word == "--joints") options.joints = std::atof(words[i + 1]);
     if (word == "--only") options.only = words[i + 1];
