@@ -47,17 +47,19 @@ inline Anchor mover(std::size_t node, const Vec3& from, const Vec3& velocity, do
   return anchor;
 }
 
-/// From a state, by default the rest; throws when it is not found to the tolerance.
-inline Equilibrium balanced_from(const System& system, State start, const StaticsOptions& options = {}) {
+/// From a state, by default the rest; throws when it is not found to so many times the tolerance.
+inline Equilibrium balanced_from(const System& system, State start, const StaticsOptions& options = {},
+                                 double tolerances = 1.0) {
   Equilibrium found = find_equilibrium(system, std::move(start), options);
   if (found.balance != Balance::converged) throw std::runtime_error("no equilibrium: " + found.reason);
-  if (!(found.last_step <= options.tolerance))
+  if (!(found.last_step <= tolerances * options.tolerance))
     throw std::runtime_error("no equilibrium: balanced, but the last step is " +
                              std::to_string(found.last_step / options.tolerance) + " tolerances");
   return found;
 }
-inline Equilibrium balanced(const System& system, const StaticsOptions& options = {}) {
-  return balanced_from(system, system.rest_state(), options);
+inline Equilibrium balanced(const System& system, const StaticsOptions& options = {},
+                            double tolerances = 1.0) {
+  return balanced_from(system, system.rest_state(), options, tolerances);
 }
 
 /// A rod clamped at its first node.
