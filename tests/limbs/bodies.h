@@ -146,8 +146,8 @@ class BodyMaker {
   std::vector<double> radius_;
 };
 
-/// Kinds: near-mirror legs; a thick ear beside a thin arm and a thumb between fingers, whose skin is nearer to
-/// the axis of what is beside it; a loose part in a socket; a shell within a shell.
+/// Kinds: near-mirror legs; a thick ear beside a thin arm and a thumb between fingers, whose skin is nearer
+/// to the axis of what is beside it; a loose part in a socket; a shell within a shell.
 inline constexpr int kBodyKinds = 5;
 inline Body make_body(int kind, Random& random) {
   const auto about = [&](double value, double part) {

@@ -3,23 +3,23 @@
 ///     limb_sweep [--seed S] [--count N] [--meshes DIR] [--only NAME] [--cells C] [--joints R] [--band B]
 ///                [--zones PERCENT] [--splits 1]
 ///
-/// N generated bodies of five kinds in turn, then the closed meshes of DIR on the axes that are found in them. A
-/// point is bound to the limb with the most of its weight. It is judged where it is farther than R = 2 radii of
-/// the body from each joint (the skin beside a joint is one away), and wrong where the way through the body to
-/// another limb's axis is shorter by more than a tenth, by which ways along voxels are too long, and two
-/// voxels. There are C = 128 voxels along the longest side.
+/// N generated bodies of five kinds in turn, then the closed meshes of DIR on the axes that are found in
+/// them. A point is bound to the limb with the most of its weight. It is judged where it is farther than R =
+/// 2 radii of the body from each joint (the skin beside a joint is one away), and wrong where the way through
+/// the body to another limb's axis is shorter by more than a tenth, by which ways along voxels are too long,
+/// and two voxels. There are C = 128 voxels along the longest side.
 ///
 /// Then each limb in turn is bent by 30, 60 and 120 degrees. Printed is the largest share of the skin that a
-/// pose spoils, and in brackets what of it is no matter of course: not where the skin is within a fifth of the
-/// radius of the centre of curvature of its own posed axis, nor within three radii of where the axis of a
+/// pose spoils, and in brackets what of it is no matter of course: not where the skin is within a fifth of
+/// the radius of the centre of curvature of its own posed axis, nor within three radii of where the axis of a
 /// handle is cut open, which bending one half of tears apart.
 ///
-/// With --splits 1, edges are split at their middles once and again, and the mesh bound anew: how far that moves
-/// the points of the first mesh, over its diagonal, at 60 degrees.
+/// With --splits 1, edges are split at their middles once and again, and the mesh bound anew: how far that
+/// moves the points of the first mesh, over its diagonal, at 60 degrees.
 ///
-/// Fails where a point is wrong; where at 60 degrees the share in brackets is above 0.1 %, or PERCENT; or where
-/// the first split moves a point by more than 0.1 % of the diagonal, or the second by more than a quarter of
-/// the first.
+/// Fails where a point is wrong; where at 60 degrees the share in brackets is above 0.1 %, or PERCENT; or
+/// where the first split moves a point by more than 0.1 % of the diagonal, or the second by more than a
+/// quarter of the first.
 #include <tendril/bind/binding.h>
 #include <tendril/bind/distortion.h>
 #include <tendril/bind/import.h>

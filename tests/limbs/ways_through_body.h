@@ -31,8 +31,8 @@ class WaysThroughBody {
 
   double cell() const { return size_; }
 
-  /// Of each cell, from the nearest of some points, by the middles of cells in the body. Infinite where no way
-  /// leads.
+  /// Of each cell, from the nearest of some points, by the middles of cells in the body. Infinite where no
+  /// way leads.
   std::vector<float> from(const std::vector<Vec3>& points) const {
     using Entry = std::pair<float, long>;
     std::vector<float> way(inside_.size(), std::numeric_limits<float>::infinity());
