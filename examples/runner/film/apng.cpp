@@ -53,7 +53,8 @@ std::string apng_bytes(const std::vector<std::string>& pngs, const std::vector<d
   std::string out = pngs[0].substr(0, kSignature) + chunk("IHDR", header) + chunk("acTL", frames + forever);
   std::uint32_t sequence = 0;
   for (std::size_t k = 0; k < pngs.size(); ++k) {
-    const std::string corner = big(0, 4) + big(0, 4), over = big(0, 2);  // the whole picture, in place of the last
+    const std::string corner = big(0, 4) + big(0, 4),
+                      over = big(0, 2);  // the whole picture, in place of the last
     out += chunk("fcTL", big(sequence++, 4) + header.substr(0, 8) + corner + delay(seconds.at(k)) + over);
     for (const std::string& data : chunks_of(pngs[k], "IDAT"))
       out += k == 0 ? chunk("IDAT", data) : chunk("fdAT", big(sequence++, 4) + data);
