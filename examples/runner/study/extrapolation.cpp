@@ -55,13 +55,19 @@ std::optional<Tightest> extrapolated_run(const Study& study, double seconds) {
     Trial trial = study.run({Method::backward_euler, step}, left, true);
     left -= trial.cpu;
     if (trial.outcome == Trial::Outcome::capped) break;
-    if (!trial.finished()) continue;
+    if (!trial.finished()) {
+      row.clear();  // columns take each step for half of the one before
+      continue;
+    }
     const double cpu = trial.cpu;
     std::vector<Track> next = next_row(std::move(trial.track), row);
-    if (!row.empty()) {
-      const double settled = distance(next.back(), row.back(), scene_length(system)).position;
-      trial.track = next.back();
-      if (!out || settled < out->settled) out = {std::move(trial), settled};
+    // The column that has settled best: those that hold runs by long steps, which may have gone astray, have
+    // not.
+    for (std::size_t j = 1; j < next.size(); ++j) {
+      const double settled = distance(next[j], next[j - 1], scene_length(system)).position;
+      if (out && settled >= out->settled) continue;
+      trial.track = next[j];
+      out = {trial, settled};
     }
     row = std::move(next);
     if (2.0 * cpu > left) break;
