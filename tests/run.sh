@@ -13,7 +13,7 @@ labels='^short$'
 targets=()
 for argument in "$@"; do
   case $argument in
-    --long) labels='^(short|long)$' ;;
+    --long) labels='^(short|long)$' targets=(--target all long) ;;
     --sanitize) preset=sanitize ;;
     --shared | --clang) preset=${argument#--} ;;
     --thread) preset=thread labels='^threads$' targets=(--target threads) ;;

@@ -18,7 +18,7 @@ namespace tendril::gallery {
 namespace {
 
 constexpr int kSide = 7, kFrames = 60;
-constexpr double kSize = 0.6, kMass = 0.1, kDamping = 0.5, kDuration = 2.0;
+constexpr double kSize = 0.6, kClothMass = 0.1, kClothDamping = 0.5, kClothDuration = 2.0;
 constexpr ClothSprings kSprings{50.0, 25.0, 1.0};
 
 Vec3 sway(double time) {
@@ -27,10 +27,10 @@ Vec3 sway(double time) {
 const Vec3 kGravity(0, 0, -9.81);
 
 SpringNet mesh_cloth(const bind::PolygonMesh& mesh, int side) {
-  SpringNet net = cloth_net(mesh.points, side, side, kMass, kSprings);
+  SpringNet net = cloth_net(mesh.points, side, side, kClothMass, kSprings);
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(side); ++i) net.held.push_back(i);
   net.acceleration = [](double time) { return Vec3(sway(time) + kGravity); };
-  net.damping = kDamping;
+  net.damping = kClothDamping;
   return net;
 }
 
@@ -38,7 +38,8 @@ SpringNet mesh_cloth(const bind::PolygonMesh& mesh, int side) {
 Scene rod_cloth() {
   Scene scene;
   const std::vector<Vec3> p = middle_of_sheet(kSide, kSize);
-  const double mass = kMass / kSide, weight = 0.5 * kMass * kGravity.norm(), edge = kSize / (kSide - 1);
+  const double mass = kClothMass / kSide, weight = 0.5 * kClothMass * kGravity.norm(),
+               edge = kSize / (kSide - 1);
   const SpringConstants springs{.stretch = kSide * kSprings.structural,
                                 .bend_l = 1e-3,
                                 .bend_m = 1e-3,
@@ -49,7 +50,7 @@ Scene rod_cloth() {
                                 .mass = mass,
                                 .inertia = mass * kSize * kSize / 12};
   scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitX(), 0.1), springs));
-  scene.rods.back().mass_damping = kDamping;
+  scene.rods.back().mass_damping = kClothDamping;
   scene.anchors.push_back({.rod = 0, .node = 0});
   scene.forces.push_back(std::make_shared<Gravity>(kGravity));
   scene.forces.push_back(std::make_shared<UniformPush>(sway));
@@ -78,10 +79,10 @@ Scene mesh_cloth_in_library(const SpringNet& net) {
 /// A way to move one of the two cloths at a tolerance.
 using Way = std::function<Moved(double tolerance)>;
 
-const std::vector<double> kTimes = frame_times(kDuration, kFrames);
+const std::vector<double> kTimes = frame_times(kClothDuration, kFrames);
 
 Way by_loop(const SpringNet& net) {
-  return [&net](double tolerance) { return move_net(net, {tolerance, kSize, kDuration}, kTimes); };
+  return [&net](double tolerance) { return move_net(net, {tolerance, kSize, kClothDuration}, kTimes); };
 }
 
 Way by_library(const System& system, Method method, const bind::Binding* bound) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <stdexcept>
 
 #include "figures.h"
@@ -16,12 +15,6 @@
 
 namespace tendril::gallery {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-Vec3 place(const System& system, const State& state, std::size_t rod, std::size_t node) {
-  return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.rods()[rod].first + node));
-}
 
 void run_to(Simulation& simulation, double time) {
   if (const Report report = simulation.run(time); report.stop != Stop::finished)

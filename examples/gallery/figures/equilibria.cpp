@@ -15,8 +15,8 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr double kEdge = 0.2, kTurn = 35.0, kMass = 0.05, kStretch = 200.0, kAngular = 0.5;
-constexpr double kDamping = 4.0, kSettled = 10.0;
+constexpr double kEdge = 0.2, kTurn = 35.0, kEquilibriaMass = 0.05, kStretch = 200.0, kAngular = 0.5;
+constexpr double kEquilibriaDamping = 4.0, kEquilibriaSettled = 10.0;
 constexpr std::uint32_t kNodes = 6;
 constexpr double kLength = kEdge * (kNodes - 1);
 /// Two shapes are one where no mass is farther apart than that.
@@ -37,11 +37,11 @@ using Shape = std::vector<Vec3>;
 using Settle = std::function<std::optional<Shape>(const std::vector<Vec3>& velocities)>;
 
 SpringNet chain() {
-  SpringNet net{arc(), std::vector<double>(kNodes, kMass), {}};
+  SpringNet net{arc(), std::vector<double>(kNodes, kEquilibriaMass), {}};
   for (std::uint32_t i = 0; i + 1 < kNodes; ++i)
     net.springs.push_back(spring_between(net.rest, i, i + 1, kStretch));
   net.held = {0, 1};
-  net.damping = kDamping;
+  net.damping = kEquilibriaDamping;
   return net;
 }
 
@@ -64,8 +64,8 @@ Settle settling(const SpringNet& net) {
   return [net](const std::vector<Vec3>& velocities) -> std::optional<Shape> {
     NetState start = at_rest(net);
     for (std::uint32_t i = 2; i < kNodes; ++i) start.v[i] = velocities[i];
-    FlatRun run(net, start, {1e-3, kLength, kSettled});
-    if (const NetReport& report = run.run(kSettled); !report.finished)
+    FlatRun run(net, start, {1e-3, kLength, kEquilibriaSettled});
+    if (const NetReport& report = run.run(kEquilibriaSettled); !report.finished)
       throw std::runtime_error(report.reason);
     return run.state().p;
   };
@@ -79,10 +79,10 @@ Scene frame_springs() {
                                 .bend_m = kAngular,
                                 .bend_t = 0.0,
                                 .twist = kAngular,
-                                .mass = kMass,
-                                .inertia = kMass * kEdge * kEdge / 4};
+                                .mass = kEquilibriaMass,
+                                .inertia = kEquilibriaMass * kEdge * kEdge / 4};
   scene.rods.push_back(make_rod(arc(), orientation_towards(arc(), Vec3::UnitY(), 0.1), springs));
-  scene.rods[0].mass_damping = kDamping;
+  scene.rods[0].mass_damping = kEquilibriaDamping;
   scene.anchors.push_back({.rod = 0, .node = 0});
   return scene;
 }
@@ -94,7 +94,7 @@ Settle settling(const System& system) {
       start.y.segment<3>(3 * (kNodes + i)) = velocities[static_cast<std::size_t>(i)];
     // Only where it settles counts: on the way there the motion may be off by more than the default allows.
     Simulation simulation(system, start, {.tolerance = 1e-4, .energy_limit = 0.1, .drift_limit = 1e4});
-    if (simulation.run(kSettled).stop != Stop::finished) return {};
+    if (simulation.run(kEquilibriaSettled).stop != Stop::finished) return {};
     Shape out;
     for (Eigen::Index i = 0; i < kNodes; ++i) out.emplace_back(simulation.state().y.segment<3>(3 * i));
     return out;

@@ -1,8 +1,19 @@
 #pragma once
 
+#include <tendril/dynamics/system.h>
+
+#include <numbers>
+
 #include "page/figure.h"
 
 namespace tendril::gallery {
+
+inline constexpr double kPi = std::numbers::pi;
+
+/// Where a node of a rod is.
+inline Vec3 place(const System& system, const State& state, std::size_t rod, std::size_t node) {
+  return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.rods()[rod].first + node));
+}
 
 Figure four_frames_of_an_axis();         ///< 2.1, 2.3
 Figure springs_that_lose_their_shape();  ///< 3.8, 3.3

@@ -15,7 +15,7 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr double kYoung = 1e6, kRadius = 0.01;
+constexpr double kFittedYoung = 1e6, kRadius = 0.01;
 
 Vec3 node(const State& state, std::size_t i) {
   return state.y.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -28,10 +28,10 @@ Scene loaded_rod(int edges) {
   for (int i = 0; i <= edges; ++i) p.emplace_back(double(i) / edges, 0, 0);
   Scene scene;
   const Section section = circular_section(kRadius);
-  scene.rods.push_back(
-      make_rod(p, orientation_towards(p, Vec3::UnitY(), 0.1), {kYoung, kYoung / 3, 1000}, section));
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitY(), 0.1),
+                                {kFittedYoung, kFittedYoung / 3, 1000}, section));
   scene.anchors.push_back({.rod = 0, .node = 0});
-  const double load = 8 * kYoung * section.bending1;
+  const double load = 8 * kFittedYoung * section.bending1;
   scene.forces.push_back(std::make_shared<PointLoad>(
       PointLoad::Kind::force, 0, static_cast<std::size_t>(edges), Vec3(0, 0, -load), Signal::constant(1.0)));
   return scene;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "figures.h"
 #include "page/sketch.h"
@@ -15,12 +14,11 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr int kEdges = 12;
-constexpr double kPi = std::numbers::pi;
+constexpr int kFramesEdges = 12;
 
 std::vector<Vec3> straight() {
   std::vector<Vec3> p;
-  for (int i = 0; i <= kEdges; ++i) p.emplace_back(double(i) / kEdges, 0, 0);
+  for (int i = 0; i <= kFramesEdges; ++i) p.emplace_back(double(i) / kFramesEdges, 0, 0);
   return p;
 }
 

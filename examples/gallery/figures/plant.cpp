@@ -5,7 +5,6 @@
 #include <tendril/dynamics/statics.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "figures.h"
@@ -16,7 +15,7 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kHeight = 0.4, kLeaf = 0.2, kWindEnds = 5.0, kDuration = 12.0;
+constexpr double kHeight = 0.4, kLeaf = 0.2, kWindEnds = 5.0, kPlantDuration = 12.0;
 constexpr int kStemEdges = 8, kLeafEdges = 6, kLeaves = 5;
 const Material kPlant{.young = 1e8, .shear = 4e7, .density = 800};
 /// The node that is watched: near the tip of the third leaf.
@@ -76,10 +75,6 @@ Equilibrium balanced(const System& system) {
   Equilibrium found = find_equilibrium(system, system.rest_state());
   if (found.balance != Balance::converged) throw std::runtime_error(found.reason);
   return found;
-}
-
-Vec3 place(const System& system, const State& state, std::size_t rod, std::size_t node) {
-  return state.y.segment<3>(3 * static_cast<Eigen::Index>(system.rods()[rod].first + node));
 }
 
 /// Of the edges between a leaf's root and a node, unwrapped [degrees].
@@ -143,7 +138,7 @@ Windy blown() {
   Windy out;
   const double twist0 = twist_of(windy, start, kWatchedRod, kWatchedNode);
   const Vec3 place0 = place(windy, start, kWatchedRod, kWatchedNode);
-  for (int k = 0; k * 0.05 <= kDuration + 1e-9; ++k) {
+  for (int k = 0; k * 0.05 <= kPlantDuration + 1e-9; ++k) {
     const double time = 0.05 * k;
     if (const Report report = simulation.run(time); report.stop != Stop::finished)
       throw std::runtime_error(report.reason);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "figures.h"
@@ -15,8 +14,8 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kMouth = 0.3, kGravity = 9.81, kRamp = 1.0, kSettled = 8.0;
-constexpr int kEdges = 24, kParentEdges = 3;
+constexpr double kMouth = 0.3, kTrumpetGravity = 9.81, kTrumpetRamp = 1.0, kTrumpetSettled = 8.0;
+constexpr int kTrumpetEdges = 24, kParentEdges = 3;
 constexpr std::size_t kChildren = 4;
 
 /// A chain from the mouth's rim, level there, to the middle above: z = a (cosh((R - r) / a) - 1).
@@ -36,10 +35,10 @@ double drop() {
 
 /// How far the parent has come down at a time.
 double dropped(double time) {
-  return time < kRamp ? drop() * 0.5 * (1 - std::cos(kPi * time / kRamp)) : drop();
+  return time < kTrumpetRamp ? drop() * 0.5 * (1 - std::cos(kPi * time / kTrumpetRamp)) : drop();
 }
 double dropping(double time) {
-  return time < kRamp ? drop() * 0.5 * kPi / kRamp * std::sin(kPi * time / kRamp) : 0.0;
+  return time < kTrumpetRamp ? drop() * 0.5 * kPi / kTrumpetRamp * std::sin(kPi * time / kTrumpetRamp) : 0.0;
 }
 
 Vec3 outwards(std::size_t child) {
@@ -70,18 +69,19 @@ Scene scene_of(bool drops, double angular, bool held) {
       return AnchorPose{at - down * Vec3::UnitZ(), frame_towards(Vec3::UnitZ(), Vec3::UnitX()).frame,
                         -rate * Vec3::UnitZ(), Vec3::Zero()};
     };
-    moved.breaks = {kRamp};
+    moved.breaks = {kTrumpetRamp};
     scene.anchors.push_back(moved);
   }
   Section section = circular_section(0.006);
   section.bending1 *= angular, section.bending2 *= angular, section.torsion *= angular;
   for (std::size_t child = 1; child <= kChildren; ++child) {
-    scene.rods.push_back(rod_between(apex, kMouth * outwards(child), kEdges, section));
+    scene.rods.push_back(rod_between(apex, kMouth * outwards(child), kTrumpetEdges, section));
     scene.joints.push_back({.parent = 0, .node = 0, .child = child});
     if (held)
-      scene.anchors.push_back({.rod = child, .node = kEdges, .holds_position = true, .holds_frame = false});
+      scene.anchors.push_back(
+          {.rod = child, .node = kTrumpetEdges, .holds_position = true, .holds_frame = false});
   }
-  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -kGravity)));
+  scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -kTrumpetGravity)));
   scene.twist = Scene::Twist::everywhere;
   return scene;
 }
@@ -102,7 +102,7 @@ Settled settled(bool drops, double angular, bool held) {
   Simulation simulation(system, system.rest_state(), {.tolerance = 1e-4});
   Settled out;
   out.rest = children_of(simulation.pairs());
-  if (const Report report = simulation.run(kSettled); report.stop != Stop::finished)
+  if (const Report report = simulation.run(kTrumpetSettled); report.stop != Stop::finished)
     throw std::runtime_error(std::string(to_string(report.stop)) + ": " + report.reason);
   out.pairs = children_of(simulation.pairs());
   const Eigen::VectorXd& y = simulation.state().y;
@@ -111,7 +111,7 @@ Settled settled(bool drops, double angular, bool held) {
   for (std::size_t i = 0; i < nodes; ++i) out.speed = std::max(out.speed, at(nodes + i).norm());
   for (std::size_t child = 1; child <= kChildren; ++child) {
     std::vector<Vec3>& p = out.children.emplace_back();
-    for (std::size_t i = 0; i <= kEdges; ++i) p.push_back(at(system.rods()[child].first + i));
+    for (std::size_t i = 0; i <= kTrumpetEdges; ++i) p.push_back(at(system.rods()[child].first + i));
   }
   return out;
 }
@@ -134,7 +134,7 @@ double off_catenary(const Settled& of) {
 double changed(const Settled& before, const Settled& after) {
   double most = 0.0;
   for (std::size_t c = 0; c < kChildren; ++c)
-    for (std::size_t i = 0; i <= kEdges; ++i)
+    for (std::size_t i = 0; i <= kTrumpetEdges; ++i)
       most = std::max(most, (after.children[c][i] + drop() * Vec3::UnitZ() - before.children[c][i]).norm());
   return most / (kSag * std::sinh(kMouth / kSag));
 }
@@ -216,8 +216,9 @@ Figure trumpet_of_four_children() {
        "Angular springs as they are."},
       {drawn(mesh, carried(mesh, stiff), stiff.pairs, drop(), "ends held"), "Angular springs as they are."},
       {drawn(mesh, horn, weak.pairs, drop(), "ends held, springs minimised"), "The trumpet."}};
-  const double shape = changed(still, followed), throat = slope(weak, 0), mouth = slope(weak, kEdges - 1);
-  const double by_hand = kChildren * 2 * 3 * (kEdges + 1);
+  const double shape = changed(still, followed), throat = slope(weak, 0),
+               mouth = slope(weak, kTrumpetEdges - 1);
+  const double by_hand = kChildren * 2 * 3 * (kTrumpetEdges + 1);
   out.numbers = {
       {"ends free: nodes moved against the parent, of the children's length", shape, Bounds{0, 1e-4}},
       {"minimised: slope at the throat, against level [degrees]", throat, Bounds{78, 82}},

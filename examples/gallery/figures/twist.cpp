@@ -17,7 +17,8 @@
 namespace tendril::gallery {
 namespace {
 
-constexpr double kRamp = 1.0, kDuration = 3.0, kDamping = 20.0, kYoung = 2e5, kDensity = 1000.0;
+constexpr double kTwistRamp = 1.0, kTwistDuration = 3.0, kTwistDamping = 20.0, kTwistYoung = 2e5,
+                 kDensity = 1000.0;
 constexpr int kLayers = 4;
 
 /// The bar, and what tells whether a map of space keeps it.
@@ -83,11 +84,12 @@ Twisted judged(const Object& object, std::vector<Vec3> all) {
 
 /// How far the far end is turned at a time, and how fast: smoothly up to `turn`, then it stays.
 double turned(double turn, double time) {
-  return time < kRamp ? turn * 0.5 * (1 - std::cos(std::numbers::pi * time / kRamp)) : turn;
+  return time < kTwistRamp ? turn * 0.5 * (1 - std::cos(std::numbers::pi * time / kTwistRamp)) : turn;
 }
 double turning(double turn, double time) {
-  return time < kRamp ? turn * 0.5 * std::numbers::pi / kRamp * std::sin(std::numbers::pi * time / kRamp)
-                      : 0.0;
+  return time < kTwistRamp
+             ? turn * 0.5 * std::numbers::pi / kTwistRamp * std::sin(std::numbers::pi * time / kTwistRamp)
+             : 0.0;
 }
 
 Lattice lattice_of(const Object& object, int cells) {
@@ -107,8 +109,8 @@ Twisted by_hand(const Object& object, int cells, double turn) {
 /// A lattice of springs, its first layer held, its last one turned.
 SpringNet driven_net(const Object& object, const Lattice& lattice, double turn) {
   const double section = 4 * object.bar.half * object.bar.half;
-  SpringNet net = lattice.net(object.mass(), kYoung * section / 4);
-  net.damping = kDamping;
+  SpringNet net = lattice.net(object.mass(), kTwistYoung * section / 4);
+  net.damping = kTwistDamping;
   const int last = lattice.cells()[0];
   for (std::uint32_t i = 0; i < net.rest.size(); ++i)
     if (const int layer = lattice.layer(i); layer == 0 || layer == last) net.held.push_back(i);
@@ -128,7 +130,8 @@ struct Driven {
 Driven by_springs(const Object& object, int cells, double turn) {
   const Lattice lattice = lattice_of(object, cells);
   const SpringNet net = driven_net(object, lattice, turn);
-  const Moved moved = move_net(net, {1e-4, object.bar.length, kDuration}, std::vector{kRamp, kDuration});
+  const Moved moved =
+      move_net(net, {1e-4, object.bar.length, kTwistDuration}, std::vector{kTwistRamp, kTwistDuration});
   Driven out{judged(object, lattice.map(moved.frames.back(), object.all())), moved.frames.back()};
   out.result.evaluations = moved.evaluations;
   return out;
@@ -139,9 +142,9 @@ Scene rod_scene(const Object& object, double turn) {
   std::vector<Vec3> p;
   for (int i = 0; i <= kLayers; ++i) p.emplace_back(object.bar.length * i / kLayers, 0, 0);
   const double side = 2 * object.bar.half;
-  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1), {kYoung, kYoung / 3, kDensity},
-                                rectangular_section(side, side)));
-  scene.rods.back().mass_damping = kDamping;
+  scene.rods.push_back(make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.1),
+                                {kTwistYoung, kTwistYoung / 3, kDensity}, rectangular_section(side, side)));
+  scene.rods.back().mass_damping = kTwistDamping;
   scene.anchors.push_back({.rod = 0, .node = 0});
   Anchor end{.rod = 0, .node = kLayers};
   end.motion = [turn, at = p.back()](double time) {
@@ -150,7 +153,7 @@ Scene rod_scene(const Object& object, double turn) {
     return AnchorPose{
         at, {now(rest.x), now(rest.y), rest.z}, Vec3::Zero(), turning(turn, time) * Vec3::UnitX()};
   };
-  end.breaks = {kRamp};
+  end.breaks = {kTwistRamp};
   scene.anchors.push_back(end);
   return scene;
 }
@@ -162,7 +165,7 @@ Twisted by_curve_pair(const Object& object, double turn) {
   const std::vector<Vec3> all = object.all();
   const bind::Binding binding(rest.pairs()[0], all);
   const Moved moved = move_system(system, {.method = Method::cash_karp, .tolerance = 1e-4},
-                                  std::vector{kRamp, kDuration}, &binding);
+                                  std::vector{kTwistRamp, kTwistDuration}, &binding);
   Twisted out = judged(object, moved.frames.back());
   out.evaluations = moved.evaluations;
   return out;
