@@ -44,7 +44,8 @@ class WaysThroughBody {
           next.emplace(way[static_cast<std::size_t>(at)] = d, at);
       });
     while (!next.empty()) {
-      const auto [d, at] = next.top();
+      const float d = next.top().first;
+      const long at = next.top().second;
       next.pop();
       if (d > way[static_cast<std::size_t>(at)]) continue;
       each_near(middle(at), 1, [&](long to) {
