@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::size_t kMostUnknowns = 600;
 constexpr double kFirstSteps = 128.0;  // of the whole run
-constexpr int kLevels = 7, kMostLevels = 9;
-constexpr double kSettled = 1e-3;  // of the length: from where no more levels than kLevels are run
+constexpr int kLevels = 7;
 
 /// a + (a - b) / (2^j - 1), everywhere: the j-th power of the step goes.
 Track combined(const Track& a, const Track& b, int j) {
@@ -52,8 +51,7 @@ std::optional<Tightest> extrapolated_run(const Study& study, double seconds) {
   std::vector<Track> row;
   std::optional<Tightest> out;
   double left = seconds, step = first_step(study.file());
-  for (int level = 0; level < kMostLevels; ++level, step /= 2) {
-    if (level >= kLevels && out && out->settled < kSettled) break;
+  for (int level = 0; level < kLevels; ++level, step /= 2) {
     Trial trial = study.run({Method::backward_euler, step}, left, true);
     left -= trial.cpu;
     if (trial.outcome == Trial::Outcome::capped) break;
