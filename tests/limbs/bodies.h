@@ -24,11 +24,17 @@ struct Limb {
   double radius = 0.0;   ///< of the body at the joint
 };
 
+/// Where the axis of a handle is cut open.
+struct Cut {
+  Vec3 p;
+  double radius;  ///< of the body there
+};
+
 struct Body {
   std::string name;
   bind::PolygonMesh mesh;
   std::vector<Limb> limbs;  ///< parents first
-  std::vector<Limb> cuts;   ///< where a handle's axis is cut open, a point each, with the radius there
+  std::vector<Cut> cuts;
 };
 
 /// On the knots of the limb at rest.

@@ -30,7 +30,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "limbs/bodies.h"
 #include "limbs/ways_through_body.h"
@@ -126,8 +125,8 @@ Found judge(const Body& body, const Options& options) {
       for (const bind::SpoiltZone& zone : d.zones) {
         std::size_t free = 0;
         for (const std::uint32_t face : zone.faces) free += !spared(face);
-        const bool torn = std::any_of(body.cuts.begin(), body.cuts.end(), [&](const Limb& cut) {
-          return (cut.p[0] - zone.centre).norm() <= 3.0 * cut.radius + zone.radius;
+        const bool torn = std::any_of(body.cuts.begin(), body.cuts.end(), [&](const Cut& cut) {
+          return (cut.p - zone.centre).norm() <= 3.0 * cut.radius + zone.radius;
         });
         if (free == 0 || torn) continue;
         crumpled += zone.area;
@@ -194,7 +193,7 @@ Body body_of(const std::string& folder, const std::string& name) {
     for (const Vec3& cut : tree.report.cuts)
       for (const bool last : {false, true})
         if ((cut - (last ? curve.points.back() : curve.points.front())).norm() < 1e-9)
-          body.cuts.push_back({{cut}, {}, -1, 0, last ? curve.radius.back() : curve.radius.front()});
+          body.cuts.push_back({cut, last ? curve.radius.back() : curve.radius.front()});
     body.limbs.push_back(std::move(limb));
   }
   return body;
