@@ -43,6 +43,17 @@ TEST(AxisCommand, WritesWhatBindAndDeformRead) {
   EXPECT_LT(Json::parse(deformed.out).at("rest_error").get<double>(), 1e-14);
 }
 
+/// What it found is written all the same: a person may go on from it.
+TEST(AxisCommand, SaysWhereSkinHasNoAxisNear) {
+  const Folder folder;
+  bind::write_mesh(folder / "y.off", three_tubes());
+  const Outcome found = folder.run("axis y.off --out a.json --prune 20 --json");
+  EXPECT_EQ(found.code, 1);
+  EXPECT_NE(found.err.find("uncovered: 21 % of the skin"), std::string::npos) << found.err;
+  EXPECT_EQ(Json::parse(found.out).at("status"), "uncovered");
+  EXPECT_GT(bytes_of(folder / "a.json").size(), 100U);
+}
+
 TEST(AxisCommand, APoseMustHaveAsManyCurves) {
   const Folder folder;
   folder.write("tube.off", tube_off());
