@@ -17,9 +17,9 @@
 /// With --splits 1, edges are split at their middles once and again, and the mesh bound anew: how far that
 /// moves the points of the first mesh, over its diagonal, at 60 degrees.
 ///
-/// Fails where a point is wrong; where at 60 degrees the share in brackets is above 0.1 %, or PERCENT; or
-/// where the first split moves a point by more than 0.1 % of the diagonal, or the second by more than a
-/// quarter of the first.
+/// Fails where nothing was judged; where a point is wrong; where at 60 degrees the share in brackets is above
+/// 0.1 %, or PERCENT; or where the first split moves a point by more than 0.1 % of the diagonal, or the
+/// second by more than a quarter of the first.
 #include <tendril/bind/binding.h>
 #include <tendril/bind/distortion.h>
 #include <tendril/bind/import.h>
@@ -164,10 +164,11 @@ void split(const Body& body, const Options& options, Found& found) {
   for (double& moved : found.moved) moved /= bind::bounding_diagonal(body.mesh.points);
 }
 
-bool tell(const Body& body, const Options& options) {
+bool tell(const Body& body, const Options& options, std::size_t& judged) {
   if (!options.only.empty() && body.name.find(options.only) == std::string::npos) return true;
   Found f = judge(body, options);
   if (options.splits) split(body, options, f);
+  judged += f.judged;
   std::printf("%-18s %7zu points %3zu limbs  judged %5.1f %%  wrong %5zu", body.name.c_str(), f.points,
               body.limbs.size(), 100.0 * double(f.judged) / double(f.points), f.wrong);
   for (std::size_t a = 0; a < 3; ++a)
@@ -202,15 +203,17 @@ Body body_of(const std::string& folder, const std::string& name) {
 
 int sweep(const Options& options) {
   int bad = 0;
+  std::size_t judged = 0;
   Random random(options.seed);
-  for (int i = 0; i < options.count; ++i) bad += !tell(make_body(i % kBodyKinds, random), options);
+  for (int i = 0; i < options.count; ++i) bad += !tell(make_body(i % kBodyKinds, random), options, judged);
 #ifdef TENDRIL_WITH_AXIS
   if (!options.meshes.empty())
     for (const char* name : {"diplodocus", "cactus", "elephant", "armadillo", "camel", "hand", "dino", "bear",
                              "homer", "triceratops", "cow", "bull"})
-      if (options.only.empty() || options.only == name) bad += !tell(body_of(options.meshes, name), options);
+      if (options.only.empty() || options.only == name)
+        bad += !tell(body_of(options.meshes, name), options, judged);
 #endif
-  return bad == 0 ? 0 : 1;
+  return bad == 0 && judged > 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -218,17 +221,34 @@ int sweep(const Options& options) {
 
 int main(int count, char** words) {
   tendril::test::Options options;
-  for (int i = 1; i + 1 < count; i += 2) {
+  bool known = count % 2 == 1;
+  for (int i = 1; known && i < count; i += 2) {
     const std::string word = words[i];
-    if (word == "--seed") options.seed = std::strtoul(words[i + 1], nullptr, 10);
-    if (word == "--count") options.count = std::atoi(words[i + 1]);
-    if (word == "--cells") options.cells = std::atoi(words[i + 1]);
-    if (word == "--band") options.band = std::atof(words[i + 1]);
-    if (word == "--splits") options.splits = std::atoi(words[i + 1]) != 0;
-    if (word == "--zones") options.zones = 0.01 * std::atof(words[i + 1]);
-    if (word == "--joints") options.joints = std::atof(words[i + 1]);
-    if (word == "--only") options.only = words[i + 1];
-    if (word == "--meshes") options.meshes = words[i + 1];
+    const char* value = words[i + 1];
+    if (word == "--seed")
+      options.seed = std::strtoul(value, nullptr, 10);
+    else if (word == "--count")
+      options.count = std::atoi(value);
+    else if (word == "--cells")
+      options.cells = std::atoi(value);
+    else if (word == "--band")
+      options.band = std::atof(value);
+    else if (word == "--splits")
+      options.splits = std::atoi(value) != 0;
+    else if (word == "--zones")
+      options.zones = 0.01 * std::atof(value);
+    else if (word == "--joints")
+      options.joints = std::atof(value);
+    else if (word == "--only")
+      options.only = value;
+    else if (word == "--meshes")
+      options.meshes = value;
+    else
+      known = false;
+  }
+  if (!known) {
+    std::fprintf(stderr, "limb_sweep: an option that it does not know, or one without a value\n");
+    return 2;
   }
   return tendril::test::sweep(options);
 }
