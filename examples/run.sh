@@ -9,6 +9,7 @@ bash .cmake/cgal-meshes.sh build/cgal-meshes
 # A build folder keeps its choices; a new one needs no tests for this, and compiles the fast way.
 new=()
 [ -f build/CMakeCache.txt ] || new=(-DTENDRIL_TESTS=OFF -DTENDRIL_UNITY=ON)
+export CCACHE_DEPEND=1  # nothing is preprocessed twice
 cmake --preset release -Wno-dev "${new[@]}"
 cmake --build --preset release --target tendril
 mkdir -p out

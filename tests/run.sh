@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12), builds and tests. The exit code is ctest's.
 #   tests/run.sh              the short tests
-#   tests/run.sh --long       the long ones too
+#   tests/run.sh --long       the long ones too, and the benches compiled
 #   tests/run.sh --sanitize   in a build with the address and undefined-behaviour sanitizers
 #   tests/run.sh --thread     the programs that use threads, in a build with the thread sanitizer
 #   tests/run.sh --shared     with shared libraries
@@ -10,10 +10,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=release
 labels='^short$'
-targets=()
+targets=() benches=()
 for argument in "$@"; do
   case $argument in
-    --long) labels='^(short|long)$' targets=(--target all long) ;;
+    --long) labels='^(short|long)$' targets=(--target all long) benches=(-DTENDRIL_BENCH=ON) ;;
     --sanitize) preset=sanitize ;;
     --shared | --clang) preset=${argument#--} ;;
     --thread) preset=thread labels='^threads$' targets=(--target threads) ;;
@@ -26,12 +26,13 @@ need_packages "${core_packages[@]}" "${bind_packages[@]}" "${test_packages[@]}" 
 if [[ $labels == *long* ]]; then need_packages "${player_packages[@]}"; fi
 bash .cmake/cgal-meshes.sh build/cgal-meshes
 bash .cmake/npm.sh tests/runner/films build/npm
-export CCACHE_NOHASHDIR=1  # the consumer tests compile the same sources in folders of their own
-options=(-DTENDRIL_TESTS=ON)
-# One job compiles the benches too, so that they keep up with the library. From nothing all compiles the fast way; a
-# folder that a person works in stays as it is.
+# The consumer tests compile the same sources in folders of their own; a first compilation is not preprocessed twice.
+export CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1
+# With the long tests the benches are compiled, so that they keep up with the library. From nothing all compiles the
+# fast way; a folder that a person works in stays as it is.
+options=(-DTENDRIL_TESTS=ON "${benches[@]}")
 folder=build/$preset
-if [ "$preset" = release ]; then options+=(-DTENDRIL_BENCH=ON) folder=build; fi
+if [ "$preset" = release ]; then folder=build; fi
 if [ ! -e "$folder/CMakeCache.txt" ]; then options+=(-DTENDRIL_UNITY=ON); fi
 cmake --preset "$preset" -Wno-dev "${options[@]}"
 cmake --build --preset "$preset" "${targets[@]}"

@@ -1,5 +1,5 @@
 # One way of using tendril from outside, from an empty folder to a program that ran:
-#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|core_only|refused> [-DCOMPONENTS=... -DEXPECTED=...]
+#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|refused> [-DCOMPONENTS=... -DEXPECTED=...]
 #         -DWORK=<folder> -DPREFIX=<folder> -P consumer.cmake
 # CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, NM, READELF, VERSION, COMMON (the compiler, and what all
 # builds share) and LIKE_THIS (the build's type and flags).
@@ -15,7 +15,7 @@ else()
   list(APPEND COMMON -DCMAKE_BUILD_TYPE=Release)
 endif()
 # What asks only whether the library builds, links and is found is built the fast way: it was a quarter of a run's time.
-if(CASE MATCHES "^(shared|subdirectory|core_only)$")
+if(CASE MATCHES "^(shared|subdirectory)$")
   list(APPEND COMMON -DTENDRIL_UNITY=ON "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG")
 endif()
 set(ENV{CCACHE_NOHASHDIR} 1)  # each case compiles the same sources; its folder must not tell them apart
@@ -111,7 +111,17 @@ elseif(CASE STREQUAL "shared")
   configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=${names})
   run_consumers(${COMPONENTS})
 elseif(CASE STREQUAL "subdirectory")
-  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF)
+  # What needs neither CGAL nor Boost, where neither can be found: within another project, then installed from it.
+  file(REMOVE_RECURSE ${PREFIX})
+  set(without -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
+  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF -DTENDRIL_COLLISION=ON
+    -DTENDRIL_CONTACT=ON ${without})
+  run_consumers(core)
+  check_dependencies()
+  run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${PREFIX} --component core)
+  file(REMOVE_RECURSE ${WORK})
+  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${PREFIX} -DCOMPONENTS=core ${without})
+  check_dependencies()
   run_consumers(core)
 elseif(CASE STREQUAL "method")
   file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/.cmake ${SOURCE}/lib ${SOURCE}/bind DESTINATION ${WORK}/tree)
@@ -134,17 +144,6 @@ elseif(CASE STREQUAL "method")
   if(NOT code EQUAL 0 OR NOT text MATCHES "finished: 5000 steps\n$")
     message(FATAL_ERROR "the scene ended with ${code}: ${text}")
   endif()
-elseif(CASE STREQUAL "core_only")
-  file(REMOVE_RECURSE ${PREFIX})
-  configure_and_build(${SOURCE} -DTENDRIL_BIND=OFF -DTENDRIL_EXACT=OFF -DTENDRIL_TESTS=OFF -DTENDRIL_EXAMPLES=OFF
-    -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
-  check_dependencies()
-  run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${PREFIX} --component core)
-  file(REMOVE_RECURSE ${WORK})
-  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${PREFIX} -DCOMPONENTS=core
-    -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
-  check_dependencies()
-  run_consumers(core)
 elseif(CASE STREQUAL "refused")
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${here}/installed -B ${WORK}/build -G Ninja ${COMMON}
       -DCMAKE_PREFIX_PATH=${PREFIX} -DCOMPONENTS=${COMPONENTS}
