@@ -165,7 +165,7 @@ TEST(AutomaticChoice, SwitchesBothWays) {
   scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -1)));
   scene.forces.push_back(std::make_shared<Comes>());
   const System system(scene);
-  const Report report = run(system, Method::automatic, 1.5, nullptr, 1e-5);
+  const Report report = run(system, Method::automatic, 1.5, nullptr, 1e-3);
   ASSERT_EQ(report.stop, Stop::finished) << report.reason;
   for (const Switch& entry : report.switches)
     std::printf("  at %.3f %s: %s\n", entry.time, entry.to.c_str(), entry.reason.c_str());

@@ -24,10 +24,21 @@ struct Stiff {
   double spin = 0.0;      ///< held by nothing where it is not 0
   double let_go = 1e300;  ///< by its hinge
   double gravity = kG;
+  double air = 0.0;        ///< density of air at rest
+  bool remembers = false;  ///< beside a force that remembers and does nothing, as a contact before it is one
 };
 void PrintTo(const Stiff& stiff, std::ostream* out) {
   *out << stiff.name;
 }
+
+struct Idle : Force {
+  void add(const StateView&, const Loads&) const override {}
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
+  std::shared_ptr<const ForceMemory> remember(const StateView&,
+                                              const std::shared_ptr<const ForceMemory>&) const override {
+    return std::make_shared<ForceMemory>();
+  }
+};
 
 System system_of(const Stiff& stiff) {
   Scene scene;
@@ -40,12 +51,14 @@ System system_of(const Stiff& stiff) {
     if (stiff.let_go < stiff.duration) scene.anchors[0].until = stiff.let_go;
   }
   scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, -stiff.gravity, 0)));
+  if (stiff.air > 0.0) scene.forces.push_back(std::make_shared<Wind>(WindOptions{.air_density = stiff.air}));
+  if (stiff.remembers) scene.forces.push_back(std::make_shared<Idle>());
   return System(scene);
 }
 
-/// Mass, first and second moment about the first node.
+/// Mass, first and second moment about the first node; third moment of the edges' middles.
 struct Moments {
-  double mass = 0.0, first = 0.0, second = 0.0;
+  double mass = 0.0, first = 0.0, second = 0.0, third = 0.0;
 };
 Moments moments_of(const Rod& rod) {
   Moments sum;
@@ -53,19 +66,23 @@ Moments moments_of(const Rod& rod) {
     sum.mass += rod.mass[i];
     sum.first += rod.mass[i] * rod.p[i].x();
     sum.second += rod.mass[i] * rod.p[i].x() * rod.p[i].x();
+    if (i > 0)
+      sum.third += (rod.p[i].x() - rod.p[i - 1].x()) * std::pow(0.5 * (rod.p[i].x() + rod.p[i - 1].x()), 3);
   }
   return sum;
 }
 
-/// theta'' = -(first g / second) cos theta - damping theta', by Runge-Kutta's classic method at steps far
-/// below what could matter.
+/// theta'' = -(first g / second) cos theta - damping theta' - drag |theta'| theta', each edge dragged at its
+/// middle, by Runge-Kutta's classic method at steps far below what could matter.
 Eigen::Vector2d pendulum(const Stiff& stiff, const Moments& m, double until) {
   Eigen::Vector2d y(0.0, 0.0);
   const int steps = 20000;
   const double h = until / steps;
+  const double width = 2 * 0.01,
+               drag = 0.5 * stiff.air * width * WindOptions{}.normal_drag * m.third / m.second;
   const auto rate = [&](const Eigen::Vector2d& at) {
-    return Eigen::Vector2d(at[1],
-                           -m.first * stiff.gravity / m.second * std::cos(at[0]) - stiff.damping * at[1]);
+    return Eigen::Vector2d(at[1], -m.first * stiff.gravity / m.second * std::cos(at[0]) -
+                                      (stiff.damping + drag * std::abs(at[1])) * at[1]);
   };
   for (int i = 0; i < steps; ++i) {
     const Eigen::Vector2d a = rate(y), b = rate(y + h / 2 * a), c = rate(y + h / 2 * b), d = rate(y + h * c);
@@ -120,15 +137,18 @@ TEST_P(NearlyRigid, MovesAsRigidOnesDo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Rods, NearlyRigid,
-    testing::Values(Stiff{.name = "hinged"}, Stiff{.name = "hinged_for_longer", .duration = 40.0},
-                    Stiff{.name = "lightly_damped", .damping = 0.05},
-                    Stiff{.name = "viscous", .viscosity = 1e-4, .duration = 4.0},
-                    Stiff{.name = "steel", .edges = 32, .young = 2e11, .density = 7800, .duration = 5.0},
-                    Stiff{.name = "heavy_end", .end_mass = 200.0},
-                    Stiff{.name = "stiffer", .young = 1e12, .duration = 5.0},
-                    Stiff{.name = "spun", .spin = 3.32},
-                    Stiff{.name = "spun_faster", .duration = 3.0, .spin = 20.0},
-                    Stiff{.name = "spun_in_space", .spin = 3.32, .gravity = 0.0}),
+    testing::Values(
+        Stiff{.name = "hinged"}, Stiff{.name = "hinged_for_longer", .duration = 40.0},
+        Stiff{.name = "lightly_damped", .damping = 0.05},
+        Stiff{.name = "viscous", .viscosity = 1e-4, .duration = 4.0},
+        Stiff{.name = "steel", .edges = 32, .young = 2e11, .density = 7800, .duration = 5.0},
+        Stiff{.name = "heavy_end", .end_mass = 200.0},
+        Stiff{.name = "stiffer", .young = 1e12, .duration = 5.0}, Stiff{.name = "in_thin_air", .air = 1e-6},
+        Stiff{.name = "in_air", .air = 1.2},
+        Stiff{.name = "in_air_for_longer", .edges = 16, .young = 1e11, .duration = 40.0, .air = 1.2},
+        Stiff{.name = "beside_what_remembers", .remembers = true}, Stiff{.name = "spun", .spin = 3.32},
+        Stiff{.name = "spun_faster", .duration = 3.0, .spin = 20.0},
+        Stiff{.name = "spun_in_space", .spin = 3.32, .gravity = 0.0}),
     [](const auto& at) { return at.param.name; });
 
 TEST(LetGo, FliesOnAsARigidRodDoes) {

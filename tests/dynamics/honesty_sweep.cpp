@@ -1,10 +1,11 @@
 /// Random scenes by the automatic choice, held to references that two methods certify: how many successes are
 /// off by more than 10 and 100 tolerances, and what is refused, with its reason.
 ///
-///     honesty_sweep [--seed S] [--first I] [--count N] [--tolerance T] [--effort EVALUATIONS]
+///     honesty_sweep [--seed S] [--first I] [--count N] [--tolerance T] [--effort EVALUATIONS] [--pushed 1]
 ///
 /// Chains of 2 to 10 edges and trees of three rods; hinged, clamped, free and spun, or let go on the way; E
-/// from 1e4 to 1e12; undamped, damped or viscous; 0.1 to 100 s, as far as the effort of a reference goes. A
+/// from 1e4 to 1e12; undamped, damped or viscous; 0.1 to 100 s, as far as the effort of a reference goes.
+/// Where they are pushed, also by forces without an energy: wind, loads and torques that come and go. A
 /// reference is RODAS at a thousandth of the tolerance; Runge-Kutta 4 at steps of one radian of the fastest
 /// motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not count.
 ///
@@ -30,6 +31,7 @@ struct Options {
   int count = 300;
   double tolerance = 1e-3;
   double effort = 4e6;
+  bool pushed = false;
 };
 
 struct Case {
@@ -97,6 +99,34 @@ void damp(test::Random& random, Case& one) {
   if (viscosity > 0.0) one.words += words(", viscous %.1e", viscosity);
 }
 
+/// Wind, a load or a torque on the last node of a rod, or wind and a load.
+void push(test::Random& random, Case& one) {
+  const double kind = random.uniform(0.0, 1.0);
+  if (kind < 0.6) {
+    WindOptions wind;
+    wind.mean = log_uniform(random, 1e-3, 20.0) * random.in_cube(1.0).normalized();
+    wind.gust = random.uniform(0.0, 1.0);
+    wind.gust_frequency = log_uniform(random, 0.2, 5.0);
+    one.scene.forces.push_back(std::make_shared<Wind>(wind));
+    one.words += words(", wind of %.1e", wind.mean.norm());
+    if (kind < 0.4) return;
+  }
+  double weight = 0.0;
+  for (const Rod& rod : one.scene.rods)
+    for (const double mass : rod.mass) weight += 9.81 * mass;
+  const bool torque = kind > 0.85;
+  const auto rod = static_cast<std::size_t>(random.uniform(0.0, double(one.scene.rods.size())));
+  const std::size_t node = one.scene.rods[rod].p.size() - 1;
+  const Vec3 all = weight * log_uniform(random, 0.01, torque ? 0.3 : 2.0) * random.in_cube(1.0).normalized();
+  const double at = random.uniform(0.0, 0.8) * one.duration;
+  const Signal signal = chance(random, 0.5)
+                            ? Signal::sinusoid(1.0, log_uniform(random, 0.1, 5.0), random.uniform(0.0, 6.0))
+                            : Signal::table({{at, 0.0}, {at + random.uniform(0.0, 0.2) * one.duration, 1.0}});
+  one.scene.forces.push_back(std::make_shared<PointLoad>(
+      torque ? PointLoad::Kind::torque : PointLoad::Kind::force, rod, node, all, signal));
+  one.words += words(torque ? ", torque of %.1e" : ", load of %.1e", all.norm() / weight);
+}
+
 /// Of Runge-Kutta 4: a radian of the fastest motion, or within what decays fastest.
 double other_step(const Case& one, double frequency) {
   double decay = 0.0;
@@ -105,7 +135,7 @@ double other_step(const Case& one, double frequency) {
   return std::min(0.9 / frequency, 2.0 / std::max(decay, 1e-9));
 }
 
-Case make_case(test::Random& random, double effort) {
+Case make_case(test::Random& random, double effort, bool pushed) {
   Case one;
   const double young = log_uniform(random, 1e4, 1e12), radius = log_uniform(random, 2e-3, 3e-2);
   const Material material{young, young / 2.6, log_uniform(random, 500, 8000)};
@@ -120,6 +150,7 @@ Case make_case(test::Random& random, double effort) {
   const double w = system.largest_frequency(system.rest_state(), 16, *system.make_workspace());
   one.duration = std::min(log_uniform(random, 0.1, 100.0), effort * other_step(one, w) / 4.0);
   hold(random, one);
+  if (pushed) push(random, one);
   one.words += words(", %.3g s", one.duration);
   return one;
 }
@@ -208,7 +239,7 @@ int sweep(const Options& options) {
   for (int i = options.first; i < options.first + options.count; ++i) {
     test::Random random(options.seed * 100003 + static_cast<unsigned long>(i));
     std::printf("%4d", i);
-    judge(make_case(random, options.effort), options, counts);
+    judge(make_case(random, options.effort, options.pushed), options, counts);
     std::fflush(stdout);
   }
   const auto share = [&](int part) { return 100.0 * part / std::max(1, counts.certified); };
@@ -236,6 +267,7 @@ int main(int argc, char** argv) {
     if (!std::strcmp(argv[i], "--count")) options.count = std::atoi(value);
     if (!std::strcmp(argv[i], "--tolerance")) options.tolerance = std::atof(value);
     if (!std::strcmp(argv[i], "--effort")) options.effort = std::atof(value);
+    if (!std::strcmp(argv[i], "--pushed")) options.pushed = std::atoi(value) != 0;
   }
   return tendril::sweep(options);
 }

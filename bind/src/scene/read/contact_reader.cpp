@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -22,6 +23,7 @@ using Type = SolidShape::Type;
 
 constexpr double kRangeOfRadius = 0.1;  // the default range over the least radius
 constexpr double kCarries = 0.1;        // of an energy, by a barrier: kappa w range^2
+constexpr double kAtTip = 0.5;          // of that, by the last point of a rod
 
 Mat3 rotation_of(const Frame& frame) {
   Mat3 m;
@@ -121,15 +123,22 @@ Falling falling_of(const JsonNode& contact, const SceneFile& scene) {
   return out;
 }
 
-/// A barrier that carries a tenth of what all rods and every body gain when they fall by the scene's longest
-/// rod.
-double default_stiffness(const JsonNode& contact, const SceneFile& scene, double range, double radius) {
+/// A barrier that carries a tenth of what all rods gain when they fall by the scene's longest, met along
+/// their length, and every body on a rod, where what is near is but sqrt(8 radius range) wide; and half of
+/// that of the heaviest on a rod's last point, which stands for some 0.4 of the way to the next
+/// (rod_model.cpp).
+double default_stiffness(const JsonNode& contact, const SceneFile& scene,
+                         const std::vector<contact::Collider>& colliders, double range, double radius) {
   const auto [g, mass, heaviest, length, longest] = falling_of(contact, scene);
-  double stiffness = kCarries * mass * g * longest / (length * range * range);
+  double apart = longest;
+  for (const Rod& rod : scene.scene.rods)
+    apart = std::min({apart, (rod.p[1] - rod.p[0]).norm(), (rod.p.back() - rod.p[rod.p.size() - 2]).norm()});
+  for (const contact::Collider& collider : colliders)
+    apart = std::min(apart, std::sqrt(0.125 * (collider.shape->outward_radius() + radius) * range));
+  double carried = std::max(mass / length, kAtTip * heaviest / (0.4 * apart));
   for (const Body& body : scene.scene.bodies)
-    stiffness = std::max(
-        stiffness, kCarries * body.mass * g * longest / (std::sqrt(8.0 * radius * range) * range * range));
-  return stiffness;
+    carried = std::max(carried, body.mass / std::sqrt(8.0 * radius * range));
+  return kCarries * carried * g * longest / (range * range);
 }
 
 /// The same of two rods that cross, by the energy of the heaviest: near a crossing the sum of weights, as
@@ -142,7 +151,7 @@ double crossing_stiffness(const JsonNode& contact, const SceneFile& scene, doubl
 }
 
 /// A stiffness for a range and the least radius of rods.
-using Stiffness = double (*)(const JsonNode& contact, const SceneFile& scene, double range, double radius);
+using Stiffness = std::function<double(double range, double radius)>;
 
 /// What a file may say of a law, beside stiffness and range.
 void read_rest(const JsonNode& node, contact::Law& law) {
@@ -155,15 +164,14 @@ void read_rest(const JsonNode& node, contact::Law& law) {
 
 /// The range is a share of the thinnest rod: shapes seem larger by half of it, so it has to be small beside
 /// what is thick, and steps shrink with it, so no smaller than the eye asks for.
-contact::Law read_law(const JsonNode& node, const SceneFile& scene,
-                      const std::vector<contact::ContactRod>& rods, Stiffness stiffness) {
+contact::Law read_law(const JsonNode& node, const std::vector<contact::ContactRod>& rods,
+                      const Stiffness& stiffness) {
   contact::Law law;
   read_rest(node, law);
   double least = std::numeric_limits<double>::infinity();
   for (const contact::ContactRod& rod : rods) least = std::min(least, rod.radius);
   law.range = node.has("range") ? node.at("range").positive() : kRangeOfRadius * least;
-  law.stiffness =
-      node.has("stiffness") ? node.at("stiffness").positive() : stiffness(node, scene, law.range, least);
+  law.stiffness = node.has("stiffness") ? node.at("stiffness").positive() : stiffness(law.range, least);
   return law;
 }
 
@@ -268,7 +276,8 @@ void read_self_contact(const JsonNode& file, SceneFile& out) {
   std::vector<contact::RodJoint> joints;
   for (const Joint& joint : out.scene.joints)
     joints.push_back({{joint.parent, joint.child}, {joint.node, 0}});
-  const contact::Law law = read_law(node, out, rods, crossing_stiffness);
+  const contact::Law law = read_law(
+      node, rods, [&](double range, double radius) { return crossing_stiffness(node, out, range, radius); });
   out.self_contact = out.scene.forces.size();
   node.locate(
       [&] { out.scene.forces.push_back(std::make_shared<contact::RodRodContact>(rods, joints, law)); });
@@ -292,7 +301,9 @@ void read_body_contact(const JsonNode& file, SceneFile& out) {
   if (contact.has("skin")) contact.at("skin").refuse("of rods", "\"of\": \"mesh\" beside it");
   const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   const JsonNode place = file.has("contact") ? contact : list;
-  const contact::Law law = read_law(contact, out, rods, default_stiffness);
+  const contact::Law law = read_law(contact, rods, [&](double range, double radius) {
+    return default_stiffness(contact, out, colliders, range, radius);
+  });
   const auto add = [&](std::shared_ptr<const Force> force) {
     out.scene.forces.push_back(std::move(force));
     out.force_places.push_back(place.pointer());

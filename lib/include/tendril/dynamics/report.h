@@ -51,7 +51,7 @@ struct Report {
   double changed = 0.0;            ///< of it, by Simulation::change: negative where impacts take energy
   double imbalance = 0.0;          ///< (last - first - work) / largest energy seen
   /// How far energy or angular momentum that went astray put the motion off, estimated, in lengths of a rod:
-  /// of methods that choose their steps, where no force without energy acts and none remembers.
+  /// of methods that choose their steps.
   double drift = 0.0;
 };
 

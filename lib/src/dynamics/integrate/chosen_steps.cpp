@@ -194,7 +194,7 @@ double ChosenSteps::error_with_energy(const Aim& aim, double error) {
   next_.rotation = state_.rotation;
   next_.time = aim.time;
   next_energies_.reset();
-  if (!stepper_->stiff() || touches()) return error;
+  if (!stepper_->stiff()) return error;
   ++other_evaluations_;
   next_energies_ = system_.energies(next_, workspace());
   const bool flies = scale_.share_of_flight() < 1.0;

@@ -19,11 +19,6 @@ namespace {
 constexpr long kEnergyInterval = 16;  // accepted steps between looks at the energy balance
 constexpr double kTolerated = 2.0;    // tolerances that speeds may be off by
 
-bool is_pushed(const Model& model) {
-  return std::any_of(model.acting.begin(), model.acting.end(),
-                     [](const Model::Acting& acting) { return !acting.has_energy; });
-}
-
 }  // namespace
 
 Controller::Controller(const System& system, State start, const SimulationOptions& options,
@@ -37,8 +32,7 @@ Controller::Controller(const System& system, State start, const SimulationOption
       energy_(system, *work_, state_),
       drift_(system, state_),
       until_(state_.time),
-      start_(state_.time),
-      pushed_(is_pushed(model_of(system))) {
+      start_(state_.time) {
   for (const auto& force : system_.scene().forces) may_be_refused_ = may_be_refused_ || force->refuses();
   report_.method = stepper.name();
   report_.guard_step = std::numeric_limits<double>::infinity();
@@ -117,11 +111,6 @@ void Controller::check_energy() {
   judge(system_.energies(state_, workspace()));
 }
 
-bool Controller::touches() const {
-  return std::any_of(state_.memory.begin(), state_.memory.end(),
-                     [](const auto& kept) { return kept != nullptr; });
-}
-
 /// Speeds may be off by some tolerances of the scale V that steps' errors are measured on. While a motion is
 /// much slower than that (it has just begun), this alone is more than a share of its energy: d tolerances
 /// change E = m v^2 / 2 by m v d tolerance V = 2 d tolerance sqrt(E E_V).
@@ -141,7 +130,7 @@ void Controller::judge(const Energies& energies) {
   if (!ended_ && wrong > std::max(options_.energy_limit, options_.tolerance) && !tolerates(energies))
     stop(off < 0.0 ? Stop::energy_lost : Stop::energy_gained,
          sentence("at time ", state_.time, " the energy is off by ", off, " of the largest seen"));
-  if (keeps_tolerance() && !pushed_ && !touches()) judge_drift();
+  if (keeps_tolerance()) judge_drift();
 }
 
 /// What is off in energy or angular momentum has moved off in place.

@@ -62,8 +62,6 @@ class Controller {
   Evaluation asks(const State& state);
   /// Looks at the energies of the present state, and stops the run where the balance is off.
   void judge(const Energies& energies);
-  /// Some force remembers: contacts, whose energy comes and goes by intent and by jumps.
-  bool touches() const;
 
   const System& system_;
   SimulationOptions options_;
@@ -74,7 +72,6 @@ class Controller {
   EnergyBalance energy_;
   Drift drift_;
   double until_, start_;
-  bool pushed_;  ///< by a force without energy, whose work implicit steps know less well than the motion
   bool ended_ = false;
   long other_evaluations_ = 0;  ///< by others than the stepper
   Report report_;               ///< without what report() adds
