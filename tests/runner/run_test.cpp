@@ -104,6 +104,18 @@ TEST(Run, ExitsWithOneAndTheReasonWhenTheWorkLimitIsTooSmall) {
   EXPECT_NE(outcome.err.find(summary.at("reason").get<std::string>()), std::string::npos);
 }
 
+TEST(Run, DrawsWhatItHasWhereItStoppedBeforeTheOutputsOfTheSheet) {
+  const Folder folder;
+  Json scene = Json::parse(full_scene());
+  scene["mesh"] = nullptr;
+  scene["simulation"]["work_limit"] = 50;
+  scene["picture"]["panels"] = 1;
+  folder.write("scene.json", scene.dump());
+  EXPECT_EQ(folder.run("run scene.json --out out").code, 1);
+  EXPECT_FALSE(bytes_of(folder / "out/contact_sheet.png").empty());
+  EXPECT_FALSE(bytes_of(folder / "out/final.png").empty());
+}
+
 TEST(Run, TakesTheStepsOfTheMethodTheSceneNames) {
   const Folder folder;
   Json scene = Json::parse(full_scene());

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <thread>
 
 namespace tendril::runner {
@@ -123,7 +124,9 @@ bool draw_run(const scene::SceneRun& run, Recorder& recorder, const PictureOptio
   const scene::ViewOptions& view = run.file().view;
   Painter painter(run, recorder.camera(), options);
   const scene::ViewOptions small = panel_view(view);
-  const auto& moments = recorder.panels();
+  // A run that stopped may have come to none of the outputs that the sheet shows.
+  std::span<const scene::Snapshot> moments = recorder.panels();
+  if (moments.empty()) moments = {&recorder.last(), 1};
   std::vector<Picture> panels(moments.size(), Picture(0, 0));
   const auto paint = [&](Painter& own, std::size_t k, int threads) {
     panels[k] = own.paint(moments[k], small, threads);
