@@ -23,7 +23,8 @@ using Type = SolidShape::Type;
 
 constexpr double kRangeOfRadius = 0.1;  // the default range over the least radius
 constexpr double kCarries = 0.1;        // of an energy, by a barrier: kappa w range^2
-constexpr double kAtTip = 0.5;          // of that, by the last point of a rod
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kAtTip = 0.5;  // of that, by the last point of a rod
 
 Mat3 rotation_of(const Frame& frame) {
   Mat3 m;
@@ -183,14 +184,19 @@ double area_of(const std::vector<Vec3>& points, const std::vector<std::array<std
 }
 
 /// A barrier, per area, that carries a tenth of what all rods and the heaviest body gain when they fall by
-/// the longest rod, on what of the surface is within half the range of a ball of the smallest radius: pi R
-/// range.
+/// the longest rod, on what of the surface is within half the range of a ball of the smallest radius, pi R
+/// range; and half of that on one point of the surface: what is about a vertex, or as far as points are apart
+/// (surface_model.cpp).
+/// \param vertex  area of the surface a vertex
 double surface_stiffness(double energy, const std::vector<contact::Collider>& colliders, double skin,
-                         double range, double area) {
-  double least = area;
-  for (const contact::Collider& collider : colliders)
-    least = std::min(least, std::numbers::pi * (collider.shape->outward_radius() + skin) * range);
-  return kCarries * energy / (least * range * range);
+                         double range, double area, double vertex) {
+  double least = area, point = vertex;
+  for (const contact::Collider& collider : colliders) {
+    const double radius = collider.shape->outward_radius() + skin;
+    least = std::min(least, std::numbers::pi * radius * range);
+    point = std::min(point, 6.0 / 32.0 * radius * range);
+  }
+  return kCarries * energy / (std::min(least, 0.4 * point / kAtTip) * range * range);
 }
 
 /// Of the mesh with bodies, and of these with each other. A ball of radius r weighs 2 r among bodies, and
@@ -216,14 +222,14 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
                               const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     contact::Law of_area = law;
     if (law.stiffness == 0.0)
-      of_area.stiffness = surface_stiffness(energy, colliders, skin, law.range, area_of(rest, triangles));
+      of_area.stiffness = surface_stiffness(energy, colliders, skin, law.range, area_of(rest, triangles),
+                                            area_of(rest, triangles) / static_cast<double>(rest.size()));
     return std::make_shared<contact::SurfaceContact>(
         contact::ContactSurface{std::move(points), rest, triangles, skin}, colliders, of_area);
   };
   if (out.scene.bodies.empty() || colliders.size() < 2) return;
   if (law.stiffness == 0.0)
-    law.stiffness =
-        surface_stiffness(energy, colliders, skin, law.range, std::numeric_limits<double>::infinity());
+    law.stiffness = surface_stiffness(energy, colliders, skin, law.range, kInfinite, kInfinite);
   law.stiffness *= 0.5 * std::numbers::pi * law.range;
   node.locate([&] { out.scene.forces.push_back(std::make_shared<contact::BodyContact>(colliders, law)); });
   out.force_places.push_back(node.pointer());
