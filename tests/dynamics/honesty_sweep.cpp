@@ -10,9 +10,9 @@
 /// motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not count.
 ///
 /// Fails where one is off by more than 100 tolerances; of a hundred scenes and more also where more than one
-/// in a hundred is off by 10, or more than ten are refused. Of pushed ones one in a hundred may be off by 100,
-/// and three by 10: what flutters in wind, or tumbles a long way down in it, doubles what it is off by again
-/// and again.
+/// in a hundred is off by 10, or more than ten are refused. Of pushed ones one in a hundred may be off by
+/// 100, and three by 10: what flutters in wind, or tumbles a long way down in it, doubles what it is off by
+/// again and again.
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 

@@ -1,6 +1,7 @@
 #include "scene/read/contact_reader.h"
 
 #include "scene/read/anchor_reader.h"
+#include "scene/solid/contact_stiffness.h"
 #include "scene/solid/solid_reader.h"
 
 #include <tendril/contact/body_contact.h>
@@ -22,9 +23,6 @@ namespace {
 using Type = SolidShape::Type;
 
 constexpr double kRangeOfRadius = 0.1;  // the default range over the least radius
-constexpr double kCarries = 0.1;        // of an energy, by a barrier: kappa w range^2
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kAtTip = 0.5;  // of that, by the last point of a rod
 
 Mat3 rotation_of(const Frame& frame) {
   Mat3 m;
@@ -100,55 +98,10 @@ std::vector<contact::ContactRod> read_rods(const JsonNode& list, const SceneFile
   return rods;
 }
 
-/// What falls in a scene.
-struct Falling {
-  double g = 0.0;
-  double mass = 0.0, heaviest = 0.0;   // of all rods, and of one
-  double length = 0.0, longest = 0.0;  // of the same
-};
-
-Falling falling_of(const JsonNode& contact, const SceneFile& scene) {
-  Falling out;
-  for (const auto& force : scene.scene.forces)
-    if (const auto a = force->uniform_acceleration()) out.g = std::max(out.g, a->norm());
+Falling falling_by_gravity(const JsonNode& contact, const SceneFile& scene) {
+  const Falling out = falling_of(scene.scene);
   if (!(out.g > 0.0)) contact.refuse("no stiffness, and no gravity to choose one by", "a stiffness");
-  for (const Rod& rod : scene.scene.rods) {
-    double length = 0.0, mass = 0.0;
-    for (std::size_t i = 0; i + 1 < rod.p.size(); ++i) length += (rod.p[i + 1] - rod.p[i]).norm();
-    for (const double m : rod.mass) mass += m;
-    out.length += length;
-    out.mass += mass;
-    out.longest = std::max(out.longest, length);
-    out.heaviest = std::max(out.heaviest, mass);
-  }
   return out;
-}
-
-/// A barrier that carries a tenth of what all rods gain when they fall by the scene's longest, met along
-/// their length, and every body on a rod, where what is near is but sqrt(8 radius range) wide; and half of
-/// that of the heaviest on a rod's last point, which stands for some 0.4 of the way to the next
-/// (rod_model.cpp).
-double default_stiffness(const JsonNode& contact, const SceneFile& scene,
-                         const std::vector<contact::Collider>& colliders, double range, double radius) {
-  const auto [g, mass, heaviest, length, longest] = falling_of(contact, scene);
-  double apart = longest;
-  for (const Rod& rod : scene.scene.rods)
-    apart = std::min({apart, (rod.p[1] - rod.p[0]).norm(), (rod.p.back() - rod.p[rod.p.size() - 2]).norm()});
-  for (const contact::Collider& collider : colliders)
-    apart = std::min(apart, std::sqrt(0.125 * (collider.shape->outward_radius() + radius) * range));
-  double carried = std::max(mass / length, kAtTip * heaviest / (0.4 * apart));
-  for (const Body& body : scene.scene.bodies)
-    carried = std::max(carried, body.mass / std::sqrt(8.0 * radius * range));
-  return kCarries * carried * g * longest / (range * range);
-}
-
-/// The same of two rods that cross, by the energy of the heaviest: near a crossing the sum of weights, as
-/// a multiple of the gap's change, is 2 pi d / sqrt(2 d range), d the distance of the lines, so that the
-/// barrier holds some kappa range^3 sqrt(20 d / range).
-double crossing_stiffness(const JsonNode& contact, const SceneFile& scene, double range, double radius) {
-  const Falling falling = falling_of(contact, scene);
-  const double energy = falling.heaviest * falling.g * falling.longest;
-  return kCarries * energy / (std::pow(range, 3) * std::sqrt(40.0 * radius / range));
 }
 
 /// A stiffness for a range and the least radius of rods.
@@ -183,22 +136,6 @@ double area_of(const std::vector<Vec3>& points, const std::vector<std::array<std
   return sum;
 }
 
-/// A barrier, per area, that carries a tenth of what all rods and the heaviest body gain when they fall by
-/// the longest rod, on what of the surface is within half the range of a ball of the smallest radius, pi R
-/// range; and half of that on one point of the surface: what is about a vertex, or as far as points are apart
-/// (surface_model.cpp).
-/// \param vertex  area of the surface a vertex
-double surface_stiffness(double energy, const std::vector<contact::Collider>& colliders, double skin,
-                         double range, double area, double vertex) {
-  double least = area, point = vertex;
-  for (const contact::Collider& collider : colliders) {
-    const double radius = collider.shape->outward_radius() + skin;
-    least = std::min(least, std::numbers::pi * radius * range);
-    point = std::min(point, 6.0 / 32.0 * radius * range);
-  }
-  return kCarries * energy / (std::min(least, 0.4 * point / kAtTip) * range * range);
-}
-
 /// Of the mesh with bodies, and of these with each other. A ball of radius r weighs 2 r among bodies, and
 /// pi r range on a surface: their stiffness follows.
 void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider>& colliders,
@@ -212,7 +149,7 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
   if (node.has("stiffness")) {
     law.stiffness = node.at("stiffness").positive();
   } else {
-    const Falling falling = falling_of(node, out);
+    const Falling falling = falling_by_gravity(node, out);
     double heaviest = 0.0;
     for (const Body& body : out.scene.bodies) heaviest = std::max(heaviest, body.mass);
     energy = (falling.mass + heaviest) * falling.g * falling.longest;
@@ -222,25 +159,16 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
                               const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     contact::Law of_area = law;
     if (law.stiffness == 0.0)
-      of_area.stiffness = surface_stiffness(energy, colliders, skin, law.range, area_of(rest, triangles),
-                                            area_of(rest, triangles) / static_cast<double>(rest.size()));
+      of_area.stiffness =
+          surface_stiffness(energy, colliders, skin, law.range, area_of(rest, triangles), rest.size());
     return std::make_shared<contact::SurfaceContact>(
         contact::ContactSurface{std::move(points), rest, triangles, skin}, colliders, of_area);
   };
   if (out.scene.bodies.empty() || colliders.size() < 2) return;
-  if (law.stiffness == 0.0)
-    law.stiffness = surface_stiffness(energy, colliders, skin, law.range, kInfinite, kInfinite);
+  if (law.stiffness == 0.0) law.stiffness = balls_stiffness(energy, colliders, skin, law.range);
   law.stiffness *= 0.5 * std::numbers::pi * law.range;
   node.locate([&] { out.scene.forces.push_back(std::make_shared<contact::BodyContact>(colliders, law)); });
   out.force_places.push_back(node.pointer());
-}
-
-/// A barrier, per area, that carries a tenth of what the heaviest rod gains when it falls by the longest,
-/// on what two edges that cross weigh (surface_self_contact.h): both^2 / (16 (both + range (2 skin +
-/// range))), of edges that have two thirds of a triangle's area each.
-double crossing_sheets_stiffness(double energy, double skin, double range, double triangle) {
-  const double both = 4.0 / 3.0 * triangle;
-  return kCarries * energy * 16.0 * (both + range * (2.0 * skin + range)) / (both * both * range * range);
 }
 
 /// Of the mesh with itself.
@@ -254,7 +182,7 @@ void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
   double energy = 0.0;
   law.stiffness = node.has("stiffness") ? node.at("stiffness").positive() : 0.0;
   if (law.stiffness == 0.0) {
-    const Falling falling = falling_of(node, out);
+    const Falling falling = falling_by_gravity(node, out);
     energy = falling.heaviest * falling.g * falling.longest;
   }
   out.mesh_self_contact.place = node.pointer();
@@ -263,8 +191,7 @@ void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
     contact::Law of_area = law;
     const double triangle =
         area_of(rest, triangles) / static_cast<double>(std::max<std::size_t>(1, triangles.size()));
-    if (law.stiffness == 0.0)
-      of_area.stiffness = crossing_sheets_stiffness(energy, skin, law.range, triangle);
+    if (law.stiffness == 0.0) of_area.stiffness = sheets_stiffness(energy, skin, law.range, triangle);
     return std::make_shared<contact::SurfaceSelfContact>(
         contact::ContactSurface{std::move(points), rest, triangles, skin}, of_area, which);
   };
@@ -282,8 +209,9 @@ void read_self_contact(const JsonNode& file, SceneFile& out) {
   std::vector<contact::RodJoint> joints;
   for (const Joint& joint : out.scene.joints)
     joints.push_back({{joint.parent, joint.child}, {joint.node, 0}});
-  const contact::Law law = read_law(
-      node, rods, [&](double range, double radius) { return crossing_stiffness(node, out, range, radius); });
+  const contact::Law law = read_law(node, rods, [&](double range, double radius) {
+    return crossing_stiffness(out.scene, falling_by_gravity(node, out), range, radius);
+  });
   out.self_contact = out.scene.forces.size();
   node.locate(
       [&] { out.scene.forces.push_back(std::make_shared<contact::RodRodContact>(rods, joints, law)); });
@@ -308,7 +236,7 @@ void read_body_contact(const JsonNode& file, SceneFile& out) {
   const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   const JsonNode place = file.has("contact") ? contact : list;
   const contact::Law law = read_law(contact, rods, [&](double range, double radius) {
-    return default_stiffness(contact, out, colliders, range, radius);
+    return solids_stiffness(out.scene, falling_by_gravity(contact, out), colliders, range, radius);
   });
   const auto add = [&](std::shared_ptr<const Force> force) {
     out.scene.forces.push_back(std::move(force));

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <tendril/contact/collider.h>
+#include <tendril/dynamics/scene.h>
+
+#include <vector>
+
+/// The stiffness of contact where a file names none: a barrier carries a share of what falls, wherever it
+/// lands.
+namespace tendril::scene {
+
+/// What falls in a scene.
+struct Falling {
+  double g = 0.0;                      ///< 0 without gravity
+  double mass = 0.0, heaviest = 0.0;   ///< of all rods, and of one
+  double length = 0.0, longest = 0.0;  ///< of the same
+};
+Falling falling_of(const Scene& scene);
+
+/// Per length of rods that meet solids.
+/// \param radius  the least of rods
+double solids_stiffness(const Scene& scene, const Falling& falling,
+                        const std::vector<contact::Collider>& colliders, double range, double radius);
+/// Per length of rods that meet each other.
+double crossing_stiffness(const Scene& scene, const Falling& falling, double range, double radius);
+
+/// Per area of a mesh that meets solids.
+/// \param energy    of what falls
+/// \param area      of the mesh at rest
+/// \param vertices  it has
+double surface_stiffness(double energy, const std::vector<contact::Collider>& colliders, double skin,
+                         double range, double area, std::size_t vertices);
+/// The same of balls with the solids' radii.
+double balls_stiffness(double energy, const std::vector<contact::Collider>& colliders, double skin,
+                       double range);
+/// Per area of meshes that meet each other.
+/// \param triangle  its mean area
+double sheets_stiffness(double energy, double skin, double range, double triangle);
+
+}  // namespace tendril::scene
