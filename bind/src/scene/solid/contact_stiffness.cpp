@@ -47,7 +47,7 @@ bool has_tip(const Scene& scene, std::size_t rod) {
 }
 
 /// Mass that a rod's last point has to stop: of what the rod is stiff enough for to come along, as far as its
-/// weight does not bend it, (B / weight per length)^(1/3).
+/// weight does not bend it, (2 B / weight per length)^(1/3): a rod's springs are those of half edges.
 double tip_mass(const Scene& scene, double g) {
   double most = 0.0;
   for (std::size_t r = 0; r < scene.rods.size(); ++r) {
