@@ -10,9 +10,7 @@
 /// motion has to agree to one tolerance. Where they do not (chaotic motions), the scene does not count.
 ///
 /// Fails where one is off by more than 100 tolerances; of a hundred scenes and more also where more than one
-/// in a hundred is off by 10, or more than ten are refused. Of pushed ones one in a hundred may be off by
-/// 100, and three by 10: what flutters in wind, or tumbles a long way down in it, doubles what it is off by
-/// again and again.
+/// in a hundred is off by 10, or more than ten are refused.
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
@@ -253,10 +251,8 @@ int sweep(const Options& options) {
   for (const auto& [reason, count] : counts.reasons) std::printf("    %s %d\n", reason.c_str(), count);
   // Of a few scenes one is many per cent.
   const bool enough = counts.certified >= 100;
-  const double most = options.pushed ? 3.0 : 1.0;
-  const bool rarely = share(counts.beyond10) <= most && share(counts.refused) <= 10.0;
-  const bool none = options.pushed && enough ? share(counts.beyond100) <= 1.0 : counts.beyond100 == 0;
-  return none && (!enough || rarely) ? 0 : 1;
+  const bool rarely = share(counts.beyond10) <= 1.0 && share(counts.refused) <= 10.0;
+  return counts.beyond100 == 0 && (!enough || rarely) ? 0 : 1;
 }
 
 }  // namespace
