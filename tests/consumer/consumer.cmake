@@ -1,5 +1,6 @@
 # One way of using tendril from outside, from an empty folder to a program that ran:
-#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|refused> [-DCOMPONENTS=... -DEXPECTED=...]
+#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|refused>
+#         [-DCOMPONENTS=... -DCOLLISION=<ON|OFF> -DEXPECTED=...]
 #         -DWORK=<folder> -DPREFIX=<folder> -P consumer.cmake
 # CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, NM, READELF, VERSION, COMMON (the compiler, and what all
 # builds share) and LIKE_THIS (the build's type and flags).
@@ -114,8 +115,8 @@ elseif(CASE STREQUAL "subdirectory")
   # What needs neither CGAL nor Boost, where neither can be found: within another project, then installed from it.
   file(REMOVE_RECURSE ${PREFIX})
   set(without -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
-  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF -DTENDRIL_COLLISION=ON
-    -DTENDRIL_CONTACT=ON ${without})
+  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF
+    -DTENDRIL_COLLISION=${COLLISION} -DTENDRIL_CONTACT=${COLLISION} ${without})
   run_consumers(core)
   check_dependencies()
   run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${PREFIX} --component core)
