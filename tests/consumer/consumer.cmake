@@ -1,7 +1,6 @@
 # One way of using tendril from outside, from an empty folder to a program that ran:
-#   cmake -DCONFIG=<file> -DCASE=<installed|shared|subdirectory|method|refused>
-#         [-DCOMPONENTS=... -DCOLLISION=<ON|OFF> -DEXPECTED=...]
-#         -DWORK=<folder> -DPREFIX=<folder> -P consumer.cmake
+#   cmake -DCONFIG=<file> -DCASE=<installed|shared|guest|subdirectory|method|refused> [-DCOMPONENTS=... -DEXPECTED=...]
+#         [-DPREFIX=<folder>] -DWORK=<folder> -P consumer.cmake
 # CONFIG sets SOURCE and BUILD (the tree and its build), NINJA, NM, READELF, VERSION, COMMON (the compiler, and what all
 # builds share) and LIKE_THIS (the build's type and flags).
 cmake_minimum_required(VERSION 3.25)
@@ -75,16 +74,20 @@ function(check_sonames)
   endforeach()
 endfunction()
 
-# No file that entered the compilation belongs to CGAL or Boost. Eigen does: the listing is not empty.
-function(check_dependencies)
-  execute_process(COMMAND ${NINJA} -C ${WORK}/build -t deps OUTPUT_VARIABLE files RESULT_VARIABLE code)
+# No file that entered the compilation of a build (or of some objects of it) belongs to CGAL or Boost. Eigen does: the
+# listing is not empty.
+function(check_dependencies build)
+  execute_process(COMMAND ${NINJA} -C ${build} -t deps ${ARGN} OUTPUT_VARIABLE files RESULT_VARIABLE code)
   if(NOT code EQUAL 0 OR NOT files MATCHES "/Eigen/")
     message(FATAL_ERROR "the dependencies of the build cannot be read: ${files}")
   endif()
   if(files MATCHES "[^\n]*(/CGAL/|/boost/)[^\n]*")
-    message(FATAL_ERROR "core was compiled with ${CMAKE_MATCH_0}")
+    message(FATAL_ERROR "${build} was compiled with ${CMAKE_MATCH_0}")
   endif()
 endfunction()
+
+# What can be found where neither CGAL nor Boost can.
+set(without -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
 
 if(CASE STREQUAL "installed")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component core)
@@ -100,7 +103,13 @@ if(CASE STREQUAL "installed")
   if(NOT COMPONENTS STREQUAL "core")
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component ${COMPONENTS})
   endif()
-  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=${COMPONENTS})
+  set(options -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=${COMPONENTS})
+  if(COMPONENTS STREQUAL "core")
+    configure_and_build(${here}/installed ${options} ${without})
+    check_dependencies(${WORK}/build)
+  else()
+    configure_and_build(${here}/installed ${options})
+  endif()
   run_consumers(${COMPONENTS})
 elseif(CASE STREQUAL "shared")
   string(REPLACE " " ";" COMPONENTS "${COMPONENTS}")
@@ -111,18 +120,25 @@ elseif(CASE STREQUAL "shared")
   list(JOIN COMPONENTS "," names)  # a list of CMake's own would come apart on the way
   configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=${names})
   run_consumers(${COMPONENTS})
+elseif(CASE STREQUAL "guest")
+  # Within another project, as far as that needs no compilation; and what core was compiled with here.
+  run(${CMAKE_COMMAND} -S ${here}/subdirectory -B ${WORK}/build -G Ninja ${COMMON} -DTENDRIL_SOURCE=${SOURCE}
+    -DTENDRIL_BIND=OFF ${without})
+  file(GLOB_RECURSE objects RELATIVE ${BUILD} ${BUILD}/lib/CMakeFiles/tendril_core.dir/*.o)
+  if(NOT objects)
+    message(FATAL_ERROR "${BUILD} holds no object of core")
+  endif()
+  check_dependencies(${BUILD} ${objects})
 elseif(CASE STREQUAL "subdirectory")
   # What needs neither CGAL nor Boost, where neither can be found: within another project, then installed from it.
-  file(REMOVE_RECURSE ${PREFIX})
-  set(without -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON)
-  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF
-    -DTENDRIL_COLLISION=${COLLISION} -DTENDRIL_CONTACT=${COLLISION} ${without})
+  configure_and_build(${here}/subdirectory -DTENDRIL_SOURCE=${SOURCE} -DTENDRIL_BIND=OFF -DTENDRIL_COLLISION=ON
+    -DTENDRIL_CONTACT=ON ${without})
   run_consumers(core)
-  check_dependencies()
-  run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${PREFIX} --component core)
-  file(REMOVE_RECURSE ${WORK})
-  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${PREFIX} -DCOMPONENTS=core ${without})
-  check_dependencies()
+  check_dependencies(${WORK}/build)
+  run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/prefix --component core)
+  file(REMOVE_RECURSE ${WORK}/build)
+  configure_and_build(${here}/installed -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCOMPONENTS=core ${without})
+  check_dependencies(${WORK}/build)
   run_consumers(core)
 elseif(CASE STREQUAL "method")
   file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/.cmake ${SOURCE}/lib ${SOURCE}/bind DESTINATION ${WORK}/tree)
