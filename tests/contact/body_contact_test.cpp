@@ -60,7 +60,7 @@ TEST(BodyContact, ABallBouncesForEverAtTheSameHeight) {
   Bodies bodies(0.0);
   bodies.add_ball(0.1, 2.0, Vec3(0, 0, 0.6));
   const System system = bodies.system({.stiffness = 1e6, .range = 0.01}, Vec3(0, 0, -kGravity));
-  Simulation simulation(system, system.rest_state(), within(1e-9));
+  Simulation simulation(system, system.rest_state(), within(1e-10));
   double highest = 0.0, lowest = 1.0;
   simulation.on_progress([&](double t) {
     const BodyView now = system.bodies(simulation.state())[0];
@@ -109,6 +109,26 @@ TEST(BodyContact, ASlidingBallComesToRoll) {
   }
 }
 
+/// What bounces as it slides begins a contact at each bounce. Friction takes from the beginning of each mu of
+/// what the normal force gives: v_x = g t sin - mu (v_z + g t cos).
+TEST(BodyContact, ABallThatBouncesDownASlopeIsHeldBackByMuTimesWhatThrowsItUp) {
+  const double mu = 0.05, angle = 0.35, radius = 0.05;
+  for (const double tolerance : {1e-4, 1e-6}) {
+    Bodies bodies(0.0);
+    bodies.add_ball(radius, 0.1, Vec3(0, 0, radius + 2e-3));
+    const Vec3 gravity = kGravity * Vec3(std::sin(angle), 0, -std::cos(angle));
+    const System system =
+        bodies.system({.stiffness = 2e4, .range = 1e-3, .friction = mu, .stick_stiffness = 2e6}, gravity);
+    Simulation simulation(system, system.rest_state(), within(tolerance));
+    const double t = 1.5;
+    const Report report = simulation.run(t);
+    ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+    const Vec3 v = system.bodies(simulation.state())[0].velocity;
+    EXPECT_NEAR(v.x(), gravity.x() * t - mu * (v.z() - gravity.z() * t), 1e-9) << tolerance;
+    EXPECT_EQ(v.y(), 0.0);
+  }
+}
+
 /// Two equal balls that meet head on exchange their velocities, far from anything else; a third that they
 /// miss stays.
 TEST(BodyContact, BallsExchangeTheirVelocities) {
@@ -135,11 +155,11 @@ TEST(BodyContact, ABoxStandsOnASlopeAndOneTooSteepSlides) {
     const Law law{.stiffness = 1e7, .range = 1e-3, .friction = mu, .stick_damping = 1e-3, .damping = 50.0};
     const System system = bodies.system(law, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
     Simulation simulation(system, system.rest_state(), within(1e-6, Method::automatic));
-    Report report = simulation.run(1.0);
+    Report report = simulation.run(1.5);  // it has come to rest
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
     EXPECT_EQ(body_memory_of(simulation).touches.size(), 4u);
     const BodyView before = system.bodies(simulation.state())[0];
-    report = simulation.run(2.0);
+    report = simulation.run(2.5);
     ASSERT_EQ(report.stop, Stop::finished) << report.reason;
     const BodyView after = system.bodies(simulation.state())[0];
     if (share < 1.0)

@@ -37,6 +37,8 @@ inline const Law& checked(const Law& law) {
   check(law, "contact.law");
   return law;
 }
+/// Throws InvalidInput for what begins without an open gap.
+[[noreturn]] void refuse_closed(const Law& law, const std::string& what, double gap);
 /// The stiffness of what sticks.
 inline double stick_of(const Law& law) {
   return law.stick_stiffness > 0.0 ? law.stick_stiffness : law.stiffness;

@@ -21,11 +21,10 @@ std::size_t index_of(const BodyModel& model, const StateView& state, const Nearn
 
 [[noreturn]] void refuse(const BodyModel& model, const Nearness& closed) {
   const std::size_t first = model.points[closed.point].collider;
-  throw InvalidInput("contact",
-                     model.colliders.named(first) + " begins within " +
-                         model.colliders.named(closed.collider) + ": the gap is " +
-                         std::to_string(closed.gap),
-                     "an open gap");
+  refuse_closed(model.law,
+                model.colliders.named(first) + " begins within " + model.colliders.named(closed.collider) +
+                    ": the gap is ",
+                closed.gap);
 }
 
 }  // namespace

@@ -61,6 +61,16 @@ bool BodyModel::reachable(const BodyLedger& kept, const Nearness& near) const {
   return clear_way(*colliders[near.collider].shape, near, before, point.at.radius, law.range);
 }
 
+/// What comes into the range within a step slides from where it was when the step began: by how much the
+/// points of both that meet now have come apart since.
+Vec3 BodyModel::slid_since(const BodyLedger& kept, const std::vector<Placement>& placed, const Nearness& near,
+                           const Vec3& surface) const {
+  const std::size_t first = points[near.point].collider, second = near.collider;
+  const Vec3 before =
+      kept.placed[second].to_local(kept.placed[first].to_world(placed[first].to_local(surface)));
+  return placed[second].rotation * (placed[second].to_local(surface) - before);
+}
+
 BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const BodyLedger* kept,
                                   const Nearness& near) const {
   const BodyPoint& point = points[near.point];
@@ -73,9 +83,9 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
   BodyContactPoint out{near, surface, response, near.point * colliders.size() + near.collider, Vec3::Zero()};
   if (law.friction == 0.0 || !kept) return out;
   const Meeting* was = find_key(kept->meetings, out.key);
-  if (was == nullptr) return out;
-  const Vec3 apart =
-      second.rotation * was->pulled + first.to_world(was->on_first) - second.to_world(was->on_second);
+  const Vec3 apart = was ? Vec3(second.rotation * was->pulled + first.to_world(was->on_first) -
+                                second.to_world(was->on_second))
+                         : slid_since(*kept, placed, near, surface);
   out.apart = apart - n.dot(apart) * n;
   const double push = out.response.force.dot(n);
   const Vec3 rate = first.velocity_at(surface) - second.velocity_at(surface);
@@ -83,7 +93,8 @@ BodyContactPoint BodyModel::touch(const std::vector<Placement>& placed, const Bo
   const double k = point.weight * stick_of(law), pull = k * pulled.norm(), most = law.friction * push;
   out.response.sticks = pull <= most;
   out.response.friction = -(out.response.sticks ? k : most / pulled.norm()) * pulled;
-  if (k * out.apart.norm() > most) out.apart *= most / (k * out.apart.norm());
+  const double far = kTrail * most / k;
+  if (!out.response.sticks && out.apart.norm() > far) out.apart *= far / out.apart.norm();
   out.response.force += out.response.friction;
   return out;
 }

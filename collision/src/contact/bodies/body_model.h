@@ -70,6 +70,8 @@ struct BodyModel {
  private:
   void add_points(std::size_t collider);
   void add_pairs(std::size_t point);
+  Vec3 slid_since(const BodyLedger& kept, const std::vector<Placement>& placed, const Nearness& near,
+                  const Vec3& surface) const;
 };
 
 }  // namespace tendril::contact

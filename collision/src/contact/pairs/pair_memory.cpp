@@ -83,10 +83,9 @@ class Keeper {
       return "rod " + std::to_string(model_.lines.rods[edge.rod].rod) + " between nodes " +
              std::to_string(edge.node) + " and " + std::to_string(edge.node + 1);
     };
-    throw InvalidInput("contact",
-                       named(closed.first) + " begins within " + named(closed.second) + ": the gap is " +
-                           std::to_string(closed.gap),
-                       "an open gap");
+    refuse_closed(model_.law,
+                  named(closed.first) + " begins within " + named(closed.second) + ": the gap is ",
+                  closed.gap);
   }
 
   const PairModel& model_;

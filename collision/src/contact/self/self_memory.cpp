@@ -235,11 +235,10 @@ class SelfKeeper {
   }
 
   [[noreturn]] void refuse(const SelfClosed& closed) const {
-    throw InvalidInput("contact",
-                       "the surface begins in contact with itself: triangles " +
-                           std::to_string(closed.face[0]) + " and " + std::to_string(closed.face[1]) +
-                           ", the gap between their skins is " + std::to_string(closed.gap),
-                       "an open gap");
+    refuse_closed(model_.law,
+                  "the surface begins in contact with itself: triangles " + std::to_string(closed.face[0]) +
+                      " and " + std::to_string(closed.face[1]) + ", the gap between their skins is ",
+                  closed.gap);
   }
 
   const SelfModel& model_;

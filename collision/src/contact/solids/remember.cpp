@@ -77,12 +77,11 @@ class Keeper {
 
   [[noreturn]] void refuse(const Nearness& closed) const {
     const LineEdge& edge = model_.lines.edges[model_.lines.points[closed.point].edge];
-    throw InvalidInput("contact",
-                       "rod " + std::to_string(model_.lines.rods[edge.rod].rod) + " begins within " +
-                           model_.colliders.named(closed.collider) + ": between nodes " +
-                           std::to_string(edge.node) + " and " + std::to_string(edge.node + 1) +
-                           " the gap is " + std::to_string(closed.gap),
-                       "an open gap");
+    refuse_closed(model_.law,
+                  "rod " + std::to_string(model_.lines.rods[edge.rod].rod) + " begins within " +
+                      model_.colliders.named(closed.collider) + ": between nodes " +
+                      std::to_string(edge.node) + " and " + std::to_string(edge.node + 1) + " the gap is ",
+                  closed.gap);
   }
 
   const RodModel& model_;

@@ -73,11 +73,10 @@ class SurfaceKeeper {
   }
 
   [[noreturn]] void refuse(const NearPoint& closed) const {
-    throw InvalidInput("contact",
-                       "the surface begins within " + model_.colliders.named(closed.near.collider) +
-                           ": on triangle " + std::to_string(closed.triangle->index) + " the gap is " +
-                           std::to_string(closed.near.gap),
-                       "an open gap");
+    refuse_closed(model_.law,
+                  "the surface begins within " + model_.colliders.named(closed.near.collider) +
+                      ": on triangle " + std::to_string(closed.triangle->index) + " the gap is ",
+                  closed.near.gap);
   }
 
   const SurfaceModel& model_;

@@ -12,6 +12,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // How many steps' errors may add up before a flight, and the root of how many in it, over the tolerance.
 constexpr double kBeforeFlight = 40.0, kInFlight = 3.0;
+// How large a rigid body is, in radii of gyration: about a ball's diameter.
+constexpr double kBodyLength = 3.0;
 // What moves in itself less than this, of the common speed and of a length in a flight, does so by rounding.
 constexpr double kStill = 1e-6;
 
@@ -59,11 +61,12 @@ ErrorScale::ErrorScale(const System& system) : system_(system), trees_(trees_of(
     tree_mass_.push_back(0.0);
     for (const std::size_t i : tree.nodes) tree_mass_.back() += mass_[i];
   }
-  speeds_.resize(trees_.size() + 1);
   flights_.resize(trees_.size(), {kNever, 0.0});
   for (const Body& body : system_.scene().bodies)
     body_size_.push_back(std::sqrt(body.inertia.trace() / 3.0 / body.mass));
   if (rod_length_.empty()) longest_ = *std::max_element(body_size_.begin(), body_size_.end());
+  for (const double size : body_size_) body_length_.push_back(std::min(longest_, kBodyLength * size));
+  speeds_.resize(trees_.size() + body_size_.size());
 }
 
 /// Of several anchors the last to let go counts.
@@ -86,8 +89,8 @@ void ErrorScale::look_ahead(double now, double until) {
   }
 }
 
-double ErrorScale::own_speed(std::size_t tree) const {
-  return std::max(least_speed(), speeds_[tree].own);
+double ErrorScale::own_speed(std::size_t part) const {
+  return std::max(least_speed(), speeds_[part].own);
 }
 
 /// That errors of what goes on in a flight count by. Up to its beginning those of all steps add up; in the
@@ -123,35 +126,37 @@ double ErrorScale::turn_of(std::size_t tree, const Eigen::VectorXd& error, const
 }
 
 /// The speed of a body's surface where it spins: that of its matter at a radius of gyration.
-double ErrorScale::see_bodies(const State& state) const {
+double ErrorScale::speed_of(std::size_t body, const Eigen::VectorXd& y) const {
   const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
-  const Eigen::Index u = state.y.size() - 1 - 2 * k;
-  double fastest = 0.0;
-  for (Eigen::Index b = 0; b < k / 3; ++b)
-    fastest = std::max(
-        fastest, state.y.segment<3>(u + 3 * b).norm() +
-                     body_size_[static_cast<std::size_t>(b)] * state.y.segment<3>(u + k + 3 * b).norm());
-  return fastest;
+  const Eigen::Index u = y.size() - 1 - 2 * k + 3 * static_cast<Eigen::Index>(body);
+  return y.segment<3>(u).norm() + body_size_[body] * y.segment<3>(u + k).norm();
 }
 
-double ErrorScale::norm_of_bodies(const Eigen::VectorXd& error, double speed) const {
+double ErrorScale::norm_of_bodies(const Eigen::VectorXd& error) const {
   const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
   const Eigen::Index x = error.size() - 1 - 4 * k;
   double largest = 0.0;
-  for (Eigen::Index b = 0; b < k / 3; ++b) {
+  for (std::size_t b = 0; b < body_size_.size(); ++b) {
+    const double length = body_length_[b], speed = own_speed(trees_.size() + b);
     const auto part = [&](Eigen::Index kind) {
-      return error.segment<3>(x + kind * k + 3 * b).cwiseAbs().maxCoeff();
+      return error.segment<3>(x + kind * k + 3 * static_cast<Eigen::Index>(b)).cwiseAbs().maxCoeff();
     };
-    largest = std::max({largest, part(0) / longest_, part(1), part(2) / speed,
-                        part(3) * body_size_[static_cast<std::size_t>(b)] / speed});
+    largest =
+        std::max({largest, part(0) / length, part(1), part(2) / speed, part(3) * body_size_[b] / speed});
   }
   return largest;
 }
 
 void ErrorScale::see(const State& state) {
-  speeds_.back().own = std::max(speeds_.back().own, see_bodies(state));
+  double own = 0.0;
+  for (std::size_t b = 0; b < body_size_.size(); ++b) {
+    const double speed = speed_of(b, state.y);
+    double& most = speeds_[trees_.size() + b].own;
+    most = std::max(most, speed);
+    own += 0.5 * system_.scene().bodies[b].mass * speed * speed;
+  }
+  double all = own;
   const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
-  double own = 0.0, all = 0.0;
   for (std::size_t b = 0; b < trees_.size(); ++b) {
     const Vec3 common = trees_[b].free ? mean(trees_[b], mass_, state.y, v) : Vec3(Vec3::Zero());
     double fastest = 0.0;
@@ -173,9 +178,10 @@ void ErrorScale::see(const State& state) {
 void ErrorScale::see_start(const Eigen::VectorXd& rate) {
   const Eigen::Index v = 3 * static_cast<Eigen::Index>(system_.node_count());
   const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
-  for (Eigen::Index b = 0; b < k / 3; ++b) {
-    const double a = rate.segment<3>(rate.size() - 1 - 2 * k + 3 * b).norm();
-    speeds_.back().own = std::max(speeds_.back().own, std::sqrt(a * longest_));
+  for (std::size_t b = 0; b < body_size_.size(); ++b) {
+    const double a = rate.segment<3>(rate.size() - 1 - 2 * k + 3 * static_cast<Eigen::Index>(b)).norm();
+    double& own = speeds_[trees_.size() + b].own;
+    own = std::max(own, std::sqrt(a * body_length_[b]));
   }
   for (std::size_t b = 0; b < trees_.size(); ++b) {
     const Vec3 common = trees_[b].free ? mean(trees_[b], mass_, rate, v) : Vec3(Vec3::Zero());
@@ -205,11 +211,18 @@ double ErrorScale::least_speed() const {
 }
 
 double ErrorScale::energy() const {
-  double sum = 0.0;
+  double sum = energy_of_bodies();
   for (std::size_t b = 0; b < trees_.size(); ++b)
     sum += 0.5 * tree_mass_[b] * speeds_[b].own * speeds_[b].own;
-  for (const Body& body : system_.scene().bodies)
-    sum += 0.5 * body.mass * speeds_.back().own * speeds_.back().own;
+  return sum;
+}
+
+double ErrorScale::energy_of_bodies() const {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < body_size_.size(); ++b) {
+    const double own = speeds_[trees_.size() + b].own;
+    sum += 0.5 * system_.scene().bodies[b].mass * own * own;
+  }
   return sum;
 }
 
@@ -264,7 +277,7 @@ double ErrorScale::norm(const Eigen::VectorXd& error, const Eigen::VectorXd& y, 
     if (trees_[b].free) largest = std::max(largest, turn_of(b, error, y) / flying_speed(b, h));
     if (system_.twist_count() > 0) largest = std::max(largest, turning_norm(b, speed, error));
   }
-  return std::max(largest, norm_of_bodies(error, std::max(least_speed(), fastest())));
+  return std::max(largest, norm_of_bodies(error));
 }
 
 }  // namespace tendril

@@ -16,15 +16,15 @@ class ErrorScale {
   /// \param system  kept by reference
   explicit ErrorScale(const System& system);
 
-  /// Largest speeds of a tree so far.
+  /// Largest speeds of a tree or a rigid body so far.
   struct Speed {
     double own = 0.0;     ///< about the common velocity, or at all where something holds it
-    double common = 0.0;  ///< 0 where something holds it
+    double common = 0.0;  ///< 0 where something holds it, and of a rigid body
   };
 
-  /// Takes the speeds of a state into the largest so far; those of the rigid bodies into one for all.
+  /// Takes the speeds of a state into the largest so far.
   void see(const State& state);
-  /// Takes the speeds that accelerations give over the longest rod's length.
+  /// Takes the speeds that accelerations give over the longest rod's length, of a body over its own.
   /// \param rate  y' of a state
   void see_start(const Eigen::VectorXd& rate);
   /// Goes on with those of the same bodies in a scene laid out anew.
@@ -42,10 +42,11 @@ class ErrorScale {
   /// Of the speed that steps' errors are measured on, that which a flight to come allows instead; at most 1.
   double share_of_flight() const;
 
-  const std::vector<Speed>& speeds() const { return speeds_; }  ///< per tree, then that of the rigid bodies
-  double energy() const;                                        ///< kinetic, at the trees' own speeds
+  const std::vector<Speed>& speeds() const { return speeds_; }  ///< per tree, then per rigid body
+  double energy() const;                                        ///< kinetic, at their own speeds
+  double energy_of_bodies() const;                              ///< of these, that of the rigid bodies
   double common_energy() const;                                 ///< kinetic, at their common speeds
-  /// The largest kinetic energy of the trees' masses that was seen, and of it without the common motions.
+  /// The largest kinetic energy of masses and bodies that was seen, and of it without the common motions.
   double most_kinetic() const { return most_kinetic_; }
   double most_own_kinetic() const { return most_own_kinetic_; }
   double rate() const;  ///< the largest of these, in lengths of the longest rod a time unit
@@ -60,9 +61,9 @@ class ErrorScale {
 
   double fastest() const;
   double least_speed() const;
-  double see_bodies(const State& state) const;
-  double norm_of_bodies(const Eigen::VectorXd& error, double speed) const;
-  double own_speed(std::size_t tree) const;
+  double speed_of(std::size_t body, const Eigen::VectorXd& y) const;
+  double norm_of_bodies(const Eigen::VectorXd& error) const;
+  double own_speed(std::size_t part) const;
   double flying_speed(std::size_t tree, double h) const;
   double turn_of(std::size_t tree, const Eigen::VectorXd& error, const Eigen::VectorXd& y) const;
   double velocity_norm(std::size_t tree, double speed, const Eigen::VectorXd& error) const;
@@ -75,8 +76,9 @@ class ErrorScale {
   std::vector<double> mass_;         ///< per node
   std::vector<double> speed_share_;  ///< per node, what an error of its velocity counts
   std::vector<double> body_size_;    ///< radius of gyration
+  std::vector<double> body_length_;  ///< that errors of its place are measured on
   std::vector<Flight> flights_;      ///< per tree
-  std::vector<Speed> speeds_;
+  std::vector<Speed> speeds_;        ///< see speeds()
   double longest_ = 0.0, slowest_ = 0.0;
   double most_kinetic_ = 0.0, most_own_kinetic_ = 0.0;
 };

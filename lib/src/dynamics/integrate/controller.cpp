@@ -113,12 +113,15 @@ void Controller::check_energy() {
 
 /// Speeds may be off by some tolerances of the scale V that steps' errors are measured on. While a motion is
 /// much slower than that (it has just begun), this alone is more than a share of its energy: d tolerances
-/// change E = m v^2 / 2 by m v d tolerance V = 2 d tolerance sqrt(E E_V).
+/// change E = m v^2 / 2 by m v d tolerance V = 2 d tolerance sqrt(E E_V). Places may be off as well: a body
+/// that lies on another, held by its acceleration a, by d tolerance L, with V^2 at least a L, and so its
+/// energy by m a d tolerance L, up to 2 d tolerance E_V.
 bool Controller::tolerates(const Energies& energies) const {
   if (!keeps_tolerance()) return false;
   const double at_scale = scale_.energy() + scale_.common_energy();
   return std::abs(energy_.off(state_, energies)) <=
-         2.0 * kTolerated * options_.tolerance * std::sqrt(scale_.most_kinetic() * at_scale);
+         2.0 * kTolerated * options_.tolerance *
+             (std::sqrt(scale_.most_kinetic() * at_scale) + scale_.energy_of_bodies());
 }
 
 void Controller::judge(const Energies& energies) {
