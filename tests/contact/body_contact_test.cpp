@@ -138,8 +138,14 @@ TEST(BodyContact, BallsExchangeTheirVelocities) {
   bodies.add(capsule(0.2, 0.05), 1.0, Vec3(1, 1, 0.1), Vec3(0, 2, 0));
   const System system = bodies.system({.stiffness = 1e6, .range = 0.01}, Vec3::Zero());
   Simulation simulation(system, system.rest_state(), within(1e-9));
+  std::size_t most = 0;  // each pair is met once
+  simulation.on_progress([&](double) {
+    most = std::max(most, body_memory_of(simulation).touches.size());
+    return true;
+  });
   const Report report = simulation.run(1.0);
   ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_EQ(most, 1u);
   const std::vector<BodyView> now = system.bodies(simulation.state());
   EXPECT_NEAR(now[0].velocity.x(), -1.0, 1e-6);
   EXPECT_NEAR(now[1].velocity.x(), 3.0, 1e-6);

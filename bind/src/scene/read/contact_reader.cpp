@@ -2,6 +2,7 @@
 
 #include "scene/read/anchor_reader.h"
 #include "scene/solid/contact_stiffness.h"
+#include "scene/solid/known_speed.h"
 #include "scene/solid/solid_reader.h"
 
 #include <tendril/contact/body_contact.h>
@@ -98,9 +99,10 @@ std::vector<contact::ContactRod> read_rods(const JsonNode& list, const SceneFile
   return rods;
 }
 
-Falling falling_by_gravity(const JsonNode& contact, const SceneFile& scene) {
-  const Falling out = falling_of(scene.scene);
-  if (!(out.g > 0.0)) contact.refuse("no stiffness, and no gravity to choose one by", "a stiffness");
+Falling what_comes(const JsonNode& contact, const SceneFile& scene) {
+  const Falling out = falling_of(scene.scene, known_speed(scene));
+  if (!(out.energy > 0.0))
+    contact.refuse("no stiffness, and no gravity or speed to choose one by", "a stiffness");
   return out;
 }
 
@@ -149,10 +151,10 @@ void read_mesh_contact(const JsonNode& node, const std::vector<contact::Collider
   if (node.has("stiffness")) {
     law.stiffness = node.at("stiffness").positive();
   } else {
-    const Falling falling = falling_by_gravity(node, out);
+    const Falling falling = what_comes(node, out);
     double heaviest = 0.0;
     for (const Body& body : out.scene.bodies) heaviest = std::max(heaviest, body.mass);
-    energy = (falling.mass + heaviest) * falling.g * falling.longest;
+    energy = (falling.mass + heaviest) * falling.energy;
   }
   out.mesh_contact.place = node.pointer();
   out.mesh_contact.make = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
@@ -182,8 +184,8 @@ void read_mesh_self_contact(const JsonNode& node, SceneFile& out) {
   double energy = 0.0;
   law.stiffness = node.has("stiffness") ? node.at("stiffness").positive() : 0.0;
   if (law.stiffness == 0.0) {
-    const Falling falling = falling_by_gravity(node, out);
-    energy = falling.heaviest * falling.g * falling.longest;
+    const Falling falling = what_comes(node, out);
+    energy = falling.heaviest * falling.energy;
   }
   out.mesh_self_contact.place = node.pointer();
   out.mesh_self_contact.make = [=](std::shared_ptr<const RodPoints> points, const std::vector<Vec3>& rest,
@@ -210,7 +212,7 @@ void read_self_contact(const JsonNode& file, SceneFile& out) {
   for (const Joint& joint : out.scene.joints)
     joints.push_back({{joint.parent, joint.child}, {joint.node, 0}});
   const contact::Law law = read_law(node, rods, [&](double range, double radius) {
-    return crossing_stiffness(out.scene, falling_by_gravity(node, out), range, radius);
+    return crossing_stiffness(out.scene, what_comes(node, out), range, radius);
   });
   out.self_contact = out.scene.forces.size();
   node.locate(
@@ -236,7 +238,7 @@ void read_body_contact(const JsonNode& file, SceneFile& out) {
   const std::vector<contact::ContactRod> rods = read_rods(file.at("curve_pairs"), out);
   const JsonNode place = file.has("contact") ? contact : list;
   const contact::Law law = read_law(contact, rods, [&](double range, double radius) {
-    return solids_stiffness(out.scene, falling_by_gravity(contact, out), colliders, range, radius);
+    return solids_stiffness(out.scene, what_comes(contact, out), colliders, range, radius);
   });
   const auto add = [&](std::shared_ptr<const Force> force) {
     out.scene.forces.push_back(std::move(force));

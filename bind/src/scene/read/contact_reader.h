@@ -7,7 +7,7 @@
 namespace tendril::scene {
 
 /// The bodies, the contact of rods with them, and of rods with each other: the last forces of the scene.
-/// \param file  the whole scene, its rods and forces read
+/// \param file  the whole scene, all else read
 void read_contact(const JsonNode& file, SceneFile& out);
 
 /// As make_system, whether or not the contact of the mesh is there yet (scene_file.cpp).

@@ -165,10 +165,10 @@ SceneFile read_text(std::string_view text, const std::string& name) {
   read_mesh_name(file, out);
   read_bound_to(file, out);
   if (file.has("forces")) read_forces(file.at("forces"), out);
-  read_contact(file, out);
   if (file.text_or("twist", "where_needed") == "everywhere") out.scene.twist = Scene::Twist::everywhere;
   if (file.has("start")) read_start(file.at("start"), out);
   read_simulation(file.at("simulation"), out);
+  read_contact(file, out);
   if (file.has("statics")) read_statics(file.at("statics"), out);
   read_picture(file, out);
   return out;

@@ -47,7 +47,8 @@ bool has_tip(const Scene& scene, std::size_t rod) {
 }
 
 /// Mass that a rod's last point has to stop: of what the rod is stiff enough for to come along, as far as its
-/// weight does not bend it, (2 B / weight per length)^(1/3): a rod's springs are those of half edges.
+/// weight does not bend it, (2 B / weight per length)^(1/3): a rod's springs are those of half edges. All of
+/// it without weight.
 double tip_mass(const Scene& scene, double g) {
   double most = 0.0;
   for (std::size_t r = 0; r < scene.rods.size(); ++r) {
@@ -57,7 +58,8 @@ double tip_mass(const Scene& scene, double g) {
     const double edge = length / static_cast<double>(rod.p.size() - 1);
     const double bending = edge * std::max(*std::max_element(rod.bend_l.begin(), rod.bend_l.end()),
                                            *std::max_element(rod.bend_m.begin(), rod.bend_m.end()));
-    most = std::max(most, mass * std::min(1.0, std::cbrt(bending * length / (mass * g)) / length));
+    const double along = g > 0.0 ? std::cbrt(bending * length / (mass * g)) / length : 1.0;
+    most = std::max(most, mass * std::min(1.0, along));
   }
   return most;
 }
@@ -72,7 +74,7 @@ double round_area(const std::vector<contact::Collider>& colliders, double skin, 
 
 }  // namespace
 
-Falling falling_of(const Scene& scene) {
+Falling falling_of(const Scene& scene, double speed) {
   Falling out;
   for (const auto& force : scene.forces)
     if (const auto a = force->uniform_acceleration()) out.g = std::max(out.g, a->norm());
@@ -83,6 +85,7 @@ Falling falling_of(const Scene& scene) {
     out.longest = std::max(out.longest, length);
     out.heaviest = std::max(out.heaviest, mass);
   }
+  out.energy = std::max(out.g * out.longest, 0.5 * speed * speed);
   return out;
 }
 
@@ -98,7 +101,7 @@ double solids_stiffness(const Scene& scene, const Falling& falling,
       std::max(falling.mass / falling.length, kAtTip * tip_mass(scene, falling.g) / (kOfWay * apart));
   for (const Body& body : scene.bodies)
     carried = std::max(carried, body.mass / std::sqrt(8.0 * radius * range));
-  return kCarries * carried * falling.g * falling.longest / (range * range);
+  return kCarries * carried * falling.energy / (range * range);
 }
 
 /// The same of two rods that cross, by the energy of the heaviest: near a crossing the sum of weights, as
@@ -109,7 +112,7 @@ double crossing_stiffness(const Scene& scene, const Falling& falling, double ran
   const double apart = std::min(shortest_end(scene), std::sqrt(0.25 * radius * range));
   const double carried = std::max(falling.heaviest / std::sqrt(40.0 * radius * range),
                                   kAtTip * tip_mass(scene, falling.g) / (kOfWay * apart));
-  return kCarries * carried * falling.g * falling.longest / (range * range);
+  return kCarries * carried * falling.energy / (range * range);
 }
 
 /// Carries a tenth of the energy on what is near a ball, and half of that on one point of the surface: what

@@ -5,17 +5,19 @@
 
 #include <vector>
 
-/// The stiffness of contact where a file names none: a barrier carries a share of what falls, wherever it
-/// lands.
+/// The stiffness of contact where a file names none: a barrier carries a share of what falls, or comes at the
+/// speed that the file says, wherever it lands.
 namespace tendril::scene {
 
-/// What falls in a scene.
+/// What falls in a scene, or comes otherwise.
 struct Falling {
-  double g = 0.0;                      ///< 0 without gravity
+  double g = 0.0;       ///< 0 without gravity
+  double energy = 0.0;  ///< of a unit of mass; 0 where nothing falls and nothing is said to move
   double mass = 0.0, heaviest = 0.0;   ///< of all rods, and of one
   double length = 0.0, longest = 0.0;  ///< of the same
 };
-Falling falling_of(const Scene& scene);
+/// \param speed  at which things may meet besides
+Falling falling_of(const Scene& scene, double speed);
 
 /// Per length of rods that meet solids.
 /// \param radius  the least of rods

@@ -49,6 +49,8 @@ class ErrorScale {
   /// The largest kinetic energy of masses and bodies that was seen, and of it without the common motions.
   double most_kinetic() const { return most_kinetic_; }
   double most_own_kinetic() const { return most_own_kinetic_; }
+  /// In which the fastest, however it moves, goes the longest rod's length; infinite where nothing moves.
+  double time_of_a_length() const { return longest_ / fastest(); }
   double rate() const;  ///< the largest of these, in lengths of the longest rod a time unit
 
  private:

@@ -54,7 +54,10 @@ void ChosenSteps::begin(double until) {
   guard_.since().end_at_once();
   stepper_->go_on();
   const double run = until - state_.time;
-  if (run > 0.0) control_.begin(options_.first_step.value_or(std::min(run / 100, kFirst * period_)));
+  if (!(run > 0.0)) return;
+  // Implicit steps do not feel what lets go within them: in the first nothing may move far.
+  const double first = std::min({run / 100, kFirst * period_, kFirst * scale_.time_of_a_length()});
+  control_.begin(options_.first_step.value_or(first));
 }
 
 Controller::Past ChosenSteps::past() {

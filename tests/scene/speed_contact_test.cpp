@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+#include <tendril/scene/scene_run.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tendril::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kThick = 0.01, kGravity = 9.81;
+
+Json scene_of(const char* points) {
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [{"name": "rod", "nodes": 9, "orientation": [0, 1, 0],
+      "material": {"young": 1e8, "poisson": 0.35, "density": 1000},
+      "section": {"type": "circular", "radius": 0.01}}],
+    "simulation": {"duration": 1, "tolerance": 1e-4, "frames": 51}
+  })");
+  scene["curve_pairs"][0]["points"] = Json::parse(points);
+  return scene;
+}
+scene::SceneFile parsed(const Json& scene) {
+  return scene::parse_scene(scene.dump(1), "scene.json");
+}
+void fall(Json& scene) {
+  scene["forces"] = Json::parse(R"([{"type": "gravity", "acceleration": [0, 0, -9.81]}])");
+}
+constexpr const char* kFarAway = "[[50, 0, 50], [51, 0, 50]]";
+
+/// Where nothing falls the speeds that the file says choose how stiff contact is.
+TEST(ContactBySpeed, BallsExchangeTheirVelocitiesWithoutGravity) {
+  Json scene = scene_of(kFarAway);
+  scene["bodies"] = Json::parse(R"([
+    {"shape": {"type": "ball", "radius": 0.05}, "position": [0, 0, 0], "free": {"mass": 0.1, "velocity": [3, 0, 0]}},
+    {"shape": {"type": "ball", "radius": 0.05}, "position": [0.5, 0, 0], "free": {"mass": 0.1}}])");
+  scene::SceneRun run(parsed(scene));
+  std::vector<Vec3> before, last;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    before = last, last.clear();
+    for (const scene::SolidPose& body : now.bodies) last.push_back(body.position);
+  });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  ASSERT_EQ(last.size(), 2u);
+  EXPECT_NEAR((last[0] - before[0]).norm() / 0.02, 0.0, 3e-3);
+  EXPECT_NEAR((last[1] - before[1]).x() / 0.02, 3.0, 3e-3);
+}
+
+TEST(ContactBySpeed, ABoxThatIsDrivenFastSweepsARodAsideAndGoesThroughNone) {
+  Json scene = scene_of("[[0, 0, 0], [0, 0, 1]]");
+  fall(scene);
+  scene["curve_pairs"][0]["anchors"] = Json::parse(R"([{"node": 0, "hold": "both"}])");
+  scene["bodies"] =
+      Json::parse(R"([{"shape": {"type": "box", "size": [0.1, 0.4, 0.1]}, "position": [-1, 0, 0.8],
+    "translation": {"velocity": [50, 0, 0]}}])");
+  scene["simulation"] = {{"duration", 0.05}, {"tolerance", 1e-3}, {"frames", 101}};
+  scene::SceneRun run(parsed(scene));
+  double least = 1.0;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    const Vec3 centre(-1.0 + 50.0 * now.time, 0.0, 0.8);
+    for (const Vec3& p : now.masses[0])
+      least =
+          std::min(least, ((p - centre).cwiseAbs() - Vec3(0.05, 0.2, 0.05)).cwiseMax(0.0).norm() - kThick);
+  });
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(least, 0.0);
+  EXPECT_LT(least, 0.05);  // it came near
+}
+
+TEST(ContactBySpeed, RefusesToChooseWhereNothingMoves) {
+  Json scene = scene_of(kFarAway);
+  scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
+  try {
+    parsed(scene);
+    ADD_FAILURE() << "accepted";
+  } catch (const scene::SceneError& refused) {
+    EXPECT_NE(std::string(refused.what()).find("no gravity or speed to choose one by"), std::string::npos);
+  }
+}
+
+/// On a floor that moves friction carries a rod along: v t - v^2 / (2 mu g) once it has its speed.
+TEST(ContactOnABelt, ARodIsTakenAlong) {
+  Json scene = scene_of("[[0, 0, 0.01095], [1, 0, 0.01095]]");
+  fall(scene);
+  scene["bodies"] =
+      Json::parse(R"([{"shape": {"type": "half_space"}, "translation": {"velocity": [0.5, 0, 0]}}])");
+  scene["contact"] = {{"friction", 0.1}, {"damping", 0.3}};
+  scene::SceneRun run(parsed(scene));
+  Vec3 last = Vec3::Zero();
+  const Report report = run.run([&](const scene::Snapshot& now) { last = now.masses[0][0]; });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_NEAR(last.x(), 0.5 - 0.25 / (2.0 * 0.1 * kGravity), 1e-3);
+}
+
+/// What begins deep in the range is thrown out with the energy that it has there, however long the run is and
+/// with it the first step would be.
+TEST(ContactBegunDeep, ThrowsOutWithTheEnergyOfTheStart) {
+  double heights[2] = {};
+  for (const int longer : {0, 1}) {
+    Json scene = scene_of("[[0, 0, 0.0101], [1, 0, 0.0101]]");
+    fall(scene);
+    scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
+    scene["contact"] = {{"friction", 0.1}};
+    scene["simulation"]["duration"] = longer ? 3.0 : 0.1;
+    scene["simulation"]["frames"] = longer ? 31 : 2;
+    scene::SceneRun run(parsed(scene));
+    const Report report = run.run([&](const scene::Snapshot& now) {
+      if (now.time <= 0.1 + 1e-9) heights[longer] = now.masses[0][0].z();
+    });
+    EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  }
+  EXPECT_GT(heights[0], 0.2);
+  EXPECT_NEAR(heights[1], heights[0], 1e-3);
+}
+
+}  // namespace
+}  // namespace tendril::test
