@@ -5,6 +5,7 @@
 
 #include "dynamics/rhs/kinematics.h"
 #include "stiffness_elements.h"
+#include "viscous_pack.h"
 
 namespace tendril {
 
@@ -28,11 +29,10 @@ class ViscousTurning {
     assert(kin.has_rates() && kin.has_frames());
     const double step = turning_step(kin);
     for (const std::size_t side : {0, 1})
-      if (const Evaluation e = take(state, rate, side == 0 ? -step : step, kin, slopes_[side]); !e.ok())
-        return e;
+      if (const Evaluation e = take(state, rate, side == 0 ? -step : step, kin, side); !e.ok()) return e;
     if (const Evaluation e = kinematics(model_, state, state.time, state.y, Motion::all, kin); !e.ok())
       return e;
-    for_edges([&](const NodeRange& rod, std::size_t i) {
+    const auto one = [&](const NodeRange& rod, std::size_t i) {
       EdgeSlopes& rates = slopes_[1][i];
       differentiate(slopes_[0][i], 2 * step, rates);
       edge_slopes(model_, rod, i, state, kin, slopes_[0][i]);
@@ -43,29 +43,44 @@ class ViscousTurning {
         for (const std::size_t column : {i, i + 1})
           if (model_.feels[row])
             sink.block(model_.carrier[row], model_.carrier[column], row == column ? Mat3(-pull) : pull);
+    };
+    for_edges(one, [&](std::size_t i, std::size_t skip, std::size_t k) {
+      edge_slopes(model_, i, state, kin, here_);
+      turned_resistance(model_, i, kin, here_, packs_[0][k], packs_[1][k], 2 * step, pack_);
+      visit(model_, pack_, i, skip, sink);
     });
     return {};
   }
 
  private:
-  template <class F>
-  void for_edges(F call) const {
-    for (const NodeRange& rod : model_.rods)
-      for (std::size_t i = rod.first; i + 1 < rod.first + rod.count; ++i)
-        if (model_.viscosity[i] > 0.0) call(rod, i);
+  /// Calls one(rod, i) and pack(i, skip, k) for what resists, see for_packs; k counts packs.
+  template <class One, class InPack>
+  void for_edges(const One& one, const InPack& pack) const {
+    std::size_t k = 0;
+    for (const NodeRange& rod : model_.rods) {
+      if (!(model_.viscosity[rod.first] > 0.0)) continue;
+      for_packs(
+          model_, rod, [&](std::size_t i) { one(rod, i); },
+          [&](std::size_t i, std::size_t skip) { pack(i, skip, k++); });
+    }
   }
 
   /// Slopes a little earlier or later.
   Evaluation take(const State& state, const Eigen::VectorXd& rate, double h, Kinematics& kin,
-                  std::vector<EdgeSlopes>& to) {
+                  std::size_t side) {
     const Eigen::Index n3 = model_.v_begin();
     const auto m = static_cast<Eigen::Index>(model_.twist_nodes);
     moved_ = state.y;
     moved_.head(n3) += h * rate.head(n3);
     moved_.segment(model_.theta_begin(), m) += h * rate.segment(model_.theta_begin(), m);
     const Evaluation at = kinematics(model_, state, state.time + h, moved_, Motion::positions, kin);
-    if (at.ok())
-      for_edges([&](const NodeRange& rod, std::size_t i) { edge_slopes(model_, rod, i, state, kin, to[i]); });
+    if (!at.ok()) return at;
+    for_edges([&](const NodeRange& rod,
+                  std::size_t i) { edge_slopes(model_, rod, i, state, kin, slopes_[side][i]); },
+              [&](std::size_t i, std::size_t, std::size_t k) {
+                if (k == packs_[side].size()) packs_[side].emplace_back();
+                edge_slopes(model_, i, state, kin, packs_[side][k]);
+              });
     return at;
   }
 
@@ -90,6 +105,9 @@ class ViscousTurning {
   Eigen::VectorXd moved_;
   std::vector<EdgeSlopes> slopes_[2];  ///< by the first node of the edge
   TurnedResistance turned_;
+  std::vector<SlopePack> packs_[2];
+  SlopePack here_;
+  EdgePack pack_;
 };
 
 }  // namespace tendril
