@@ -102,6 +102,7 @@ TEST(Run, ExitsWithOneAndTheReasonWhenTheWorkLimitIsTooSmall) {
   EXPECT_TRUE(summary.at("status") == "too_stiff" || summary.at("status") == "work_limit") << outcome.out;
   EXPECT_NE(summary.at("reason"), "");
   EXPECT_NE(outcome.err.find(summary.at("reason").get<std::string>()), std::string::npos);
+  EXPECT_NE(outcome.err.find("what may help: a larger \"work_limit\""), std::string::npos) << outcome.err;
 }
 
 TEST(Run, DrawsWhatItHasWhereItStoppedBeforeTheOutputsOfTheSheet) {
@@ -123,7 +124,9 @@ TEST(Run, TakesTheStepsOfTheMethodTheSceneNames) {
   scene["simulation"] = {{"duration", 0.1}, {"frames", 3}, {"method", "verlet"}, {"fixed_step", 1.0}};
   folder.write("scene.json", scene.dump());
   const auto run = [&] { return folder.run("run scene.json --out out --json --no-pictures"); };
-  const Json summary = Json::parse(run().out);
+  const Outcome outcome = run();
+  const Json summary = Json::parse(outcome.out);
+  EXPECT_NE(outcome.err.find("what may help: a \"fixed_step\" below 1\n"), std::string::npos) << outcome.err;
   EXPECT_EQ(summary.at("integrator"), "velocity Verlet");
   EXPECT_EQ(summary.at("fixed_step"), 1.0);
   EXPECT_EQ(summary.at("status"), "too_stiff");

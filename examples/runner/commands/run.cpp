@@ -10,6 +10,7 @@
 #include "write/run_pictures.h"
 
 #include <tendril/base/file.h>
+#include <tendril/base/number.h>
 #include <tendril/scene/summary.h>
 
 #include <algorithm>
@@ -90,6 +91,29 @@ std::string stem(const RunArguments& options) {
   return std::filesystem::path(options.scene).stem().string();
 }
 
+/// What a person may change in a scene whose run stopped; empty where the reason says it.
+std::string what_helps(const Report& report, const SimulationOptions& options) {
+  const std::string finer = options.fixed_step ? "a \"fixed_step\" below " + shortest(*options.fixed_step)
+                                               : "a \"tolerance\" below " + shortest(options.tolerance);
+  switch (report.stop) {
+    case Stop::energy_lost:
+    case Stop::energy_gained:
+    case Stop::momentum_lost:
+      return finer + ", or one that allows this; some damping";
+    case Stop::not_evaluable:
+    case Stop::step_underflow:
+      return finer +
+             "; a larger \"stiffness\" where contact could not stop what came; more nodes where a rod folds";
+    case Stop::too_stiff:
+      if (options.fixed_step) return finer;
+      return options.method == Method::automatic ? "a larger \"work_limit\"" : "\"method\": \"automatic\"";
+    case Stop::work_limit:
+      return "a larger \"work_limit\"";
+    default:
+      return {};
+  }
+}
+
 void tell(const RunArguments& options, const std::string& summary, const scene::SceneRun& scene,
           const Phases& phases, const Report& report) {
   if (options.json) {
@@ -102,6 +126,8 @@ void tell(const RunArguments& options, const std::string& summary, const scene::
   }
   if (report.stop != Stop::finished) {
     std::cerr << "tendril: " << tendril::to_string(report.stop) << ": " << report.reason << '\n';
+    const std::string helps = what_helps(report, scene.file().options);
+    if (!helps.empty()) std::cerr << "tendril: what may help: " << helps << '\n';
   }
 }
 
