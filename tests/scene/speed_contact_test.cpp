@@ -27,11 +27,16 @@ scene::SceneFile parsed(const Json& scene) {
 void fall(Json& scene) {
   scene["forces"] = Json::parse(R"([{"type": "gravity", "acceleration": [0, 0, -9.81]}])");
 }
-constexpr const char* kFarAway = "[[50, 0, 50], [51, 0, 50]]";
+/// But for a rod far away.
+Json bodies_alone() {
+  Json scene = scene_of("[[50, 0, 50], [51, 0, 50]]");
+  scene["curve_pairs"][0]["anchors"] = Json::parse(R"([{"nodes": [0, 8], "hold": "both"}])");
+  return scene;
+}
 
 /// Where nothing falls the speeds that the file says choose how stiff contact is.
 TEST(ContactBySpeed, BallsExchangeTheirVelocitiesWithoutGravity) {
-  Json scene = scene_of(kFarAway);
+  Json scene = bodies_alone();
   scene["bodies"] = Json::parse(R"([
     {"shape": {"type": "ball", "radius": 0.05}, "position": [0, 0, 0], "free": {"mass": 0.1, "velocity": [3, 0, 0]}},
     {"shape": {"type": "ball", "radius": 0.05}, "position": [0.5, 0, 0], "free": {"mass": 0.1}}])");
@@ -69,7 +74,7 @@ TEST(ContactBySpeed, ABoxThatIsDrivenFastSweepsARodAsideAndGoesThroughNone) {
 }
 
 TEST(ContactBySpeed, RefusesToChooseWhereNothingMoves) {
-  Json scene = scene_of(kFarAway);
+  Json scene = bodies_alone();
   scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
   try {
     parsed(scene);
@@ -77,6 +82,45 @@ TEST(ContactBySpeed, RefusesToChooseWhereNothingMoves) {
   } catch (const scene::SceneError& refused) {
     EXPECT_NE(std::string(refused.what()).find("no gravity or speed to choose one by"), std::string::npos);
   }
+}
+
+/// What has corners and lands on one, and what is short and falls far, are stopped as well.
+TEST(ContactByFall, ABoxIsStoppedOnItsCorner) {
+  for (const char* body :
+       {R"({"shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "axis": [-1, -1, 1]})",
+        R"({"shape": {"type": "cylinder", "radius": 0.03, "length": 0.06}, "axis": [1, 0, 1]})"}) {
+    Json scene = bodies_alone();
+    fall(scene);
+    scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
+    scene["bodies"].push_back(Json::parse(body));
+    scene["bodies"][1]["position"] = {0, 0, 1.5};
+    scene["bodies"][1]["free"] = {{"mass", 0.5}};
+    scene["contact"] = {{"friction", 0.2}, {"damping", 0.1}};
+    scene["simulation"]["tolerance"] = 1e-5;
+    scene::SceneRun run(parsed(scene));
+    double lowest = 1.0;
+    const Report report =
+        run.run([&](const scene::Snapshot& now) { lowest = std::min(lowest, now.bodies[1].position.z()); });
+    EXPECT_EQ(report.stop, Stop::finished) << body << report.reason;
+    EXPECT_GT(lowest, 0.02) << body;
+    EXPECT_LT(lowest, 0.1) << body;  // it came down
+  }
+}
+
+TEST(ContactByFall, AShortRodIsStoppedThatFallsFar) {
+  Json scene = scene_of("[[0, 0, 2], [0.04, 0, 2.03]]");
+  fall(scene);
+  scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
+  scene["contact"] = {{"damping", 0.1}};
+  scene["simulation"]["tolerance"] = 1e-3;
+  scene::SceneRun run(parsed(scene));
+  double least = 1.0;
+  const Report report = run.run([&](const scene::Snapshot& now) {
+    for (const Vec3& p : now.masses[0]) least = std::min(least, p.z() - kThick);
+  });
+  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(least, 0.0);
+  EXPECT_LT(least, 0.5);
 }
 
 /// On a floor that moves friction carries a rod along: v t - v^2 / (2 mu g) once it has its speed.

@@ -100,7 +100,7 @@ std::vector<contact::ContactRod> read_rods(const JsonNode& list, const SceneFile
 }
 
 Falling what_comes(const JsonNode& contact, const SceneFile& scene) {
-  const Falling out = falling_of(scene.scene, known_speed(scene));
+  const Falling out = falling_of(scene.scene, known_speed(scene), known_fall(scene));
   if (!(out.energy > 0.0))
     contact.refuse("no stiffness, and no gravity or speed to choose one by", "a stiffness");
   return out;
@@ -248,7 +248,11 @@ void read_body_contact(const JsonNode& file, SceneFile& out) {
   place.locate([&] { add(std::make_shared<contact::RodContact>(rods, colliders, law)); });
   // Bodies among themselves are a force of their own: a scene without free ones does not pay for it.
   if (out.scene.bodies.empty() || out.bodies.size() < 2) return;
-  place.locate([&] { add(std::make_shared<contact::BodyContact>(colliders, law)); });
+  contact::Law of_bodies = law;
+  if (!contact.has("stiffness"))
+    of_bodies.stiffness =
+        std::max(law.stiffness, bodies_stiffness(out.scene, what_comes(contact, out), colliders, law.range));
+  place.locate([&] { add(std::make_shared<contact::BodyContact>(colliders, of_bodies)); });
 }
 
 /// What a force of the scene remembers; null where it has no such memory.

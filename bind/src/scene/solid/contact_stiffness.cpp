@@ -74,7 +74,7 @@ double round_area(const std::vector<contact::Collider>& colliders, double skin, 
 
 }  // namespace
 
-Falling falling_of(const Scene& scene, double speed) {
+Falling falling_of(const Scene& scene, double speed, double fall) {
   Falling out;
   for (const auto& force : scene.forces)
     if (const auto a = force->uniform_acceleration()) out.g = std::max(out.g, a->norm());
@@ -85,7 +85,7 @@ Falling falling_of(const Scene& scene, double speed) {
     out.longest = std::max(out.longest, length);
     out.heaviest = std::max(out.heaviest, mass);
   }
-  out.energy = std::max(out.g * out.longest, 0.5 * speed * speed);
+  out.energy = std::max(out.g * std::max(out.longest, fall), 0.5 * speed * speed);
   return out;
 }
 
@@ -102,6 +102,22 @@ double solids_stiffness(const Scene& scene, const Falling& falling,
   for (const Body& body : scene.bodies)
     carried = std::max(carried, body.mass / std::sqrt(8.0 * radius * range));
   return kCarries * carried * falling.energy / (range * range);
+}
+
+/// A tenth of what the body has, on one of its points: 2 r of a round one, the range of a corner
+/// (body_contact.h).
+double bodies_stiffness(const Scene& scene, const Falling& falling,
+                        const std::vector<contact::Collider>& colliders, double range) {
+  double most = 0.0;
+  for (const contact::Collider& collider : colliders) {
+    if (!collider.body) continue;
+    double least = kInfinite;
+    for (const contact::ShapePoint& point : collider.shape->points(range / 16.0))
+      least = std::min(least, point.radius > 0.0 ? 2.0 * point.radius : range);
+    most = std::max(most,
+                    kCarries * scene.bodies[*collider.body].mass * falling.energy / (least * range * range));
+  }
+  return most;
 }
 
 /// The same of two rods that cross, by the energy of the heaviest: near a crossing the sum of weights, as

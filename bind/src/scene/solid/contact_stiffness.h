@@ -17,12 +17,16 @@ struct Falling {
   double length = 0.0, longest = 0.0;  ///< of the same
 };
 /// \param speed  at which things may meet besides
-Falling falling_of(const Scene& scene, double speed);
+/// \param fall   how far; at least by the longest rod
+Falling falling_of(const Scene& scene, double speed, double fall);
 
 /// Per length of rods that meet solids.
 /// \param radius  the least of rods
 double solids_stiffness(const Scene& scene, const Falling& falling,
                         const std::vector<contact::Collider>& colliders, double range, double radius);
+/// Per length of free bodies that meet solids and each other, corners among them.
+double bodies_stiffness(const Scene& scene, const Falling& falling,
+                        const std::vector<contact::Collider>& colliders, double range);
 /// Per length of rods that meet each other.
 double crossing_stiffness(const Scene& scene, const Falling& falling, double range, double radius);
 

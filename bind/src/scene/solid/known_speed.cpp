@@ -1,6 +1,7 @@
 #include "scene/solid/known_speed.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tendril::scene {
 namespace {
@@ -23,6 +24,15 @@ double speed_of(const Body& body) {
   return body.velocity.norm() + body.spin.norm() * size;
 }
 
+/// Whether rods are held by no anchor, nor joined to one that is.
+std::vector<bool> free_rods(const Scene& scene) {
+  std::vector<bool> free(scene.rods.size(), true);
+  for (const Anchor& anchor : scene.anchors) free[anchor.rod] = false;
+  for (const Joint& joint : scene.joints)  // parents come first
+    free[joint.parent] = free[joint.child] = free[joint.parent] && free[joint.child];
+  return free;
+}
+
 double fastest(const std::function<AnchorPose(double)>& motion, double duration) {
   double most = 0.0;
   for (int i = 0; i <= kTimes; ++i) most = std::max(most, motion(duration * i / kTimes).velocity.norm());
@@ -42,6 +52,26 @@ double known_speed(const SceneFile& file) {
   for (const SceneBody& body : file.bodies)
     if (body.motion) driven = std::max(driven, fastest(body.motion, file.duration));
   return own + driven;
+}
+
+double known_fall(const SceneFile& file) {
+  Vec3 down = Vec3::Zero();
+  for (const auto& force : file.scene.forces)
+    if (const auto a = force->uniform_acceleration()) down += *a;
+  if (!(down.norm() > 0.0)) return 0.0;
+  down.normalize();
+  double highest = std::numeric_limits<double>::infinity(), lowest = -highest;
+  const auto falls = [&](const Vec3& p) {
+    highest = std::min(highest, down.dot(p));
+    lowest = std::max(lowest, down.dot(p));
+  };
+  const std::vector<bool> free = free_rods(file.scene);
+  for (std::size_t r = 0; r < free.size(); ++r)
+    if (free[r])
+      for (const Vec3& p : file.scene.rods[r].p) falls(p);
+  for (const Body& body : file.scene.bodies) falls(body.position);
+  for (const SceneBody& body : file.bodies) lowest = std::max(lowest, down.dot(body.pose.position));
+  return std::max(0.0, lowest - highest);
 }
 
 }  // namespace tendril::scene

@@ -10,4 +10,8 @@ namespace tendril::scene {
 /// \param file  its bodies, anchors, start and duration read
 double known_speed(const SceneFile& file);
 
+/// How far something may fall, as far as the file says: from the highest free body, or point of a rod that
+/// nothing holds, to the lowest of these and of all solids. 0 without gravity.
+double known_fall(const SceneFile& file);
+
 }  // namespace tendril::scene
