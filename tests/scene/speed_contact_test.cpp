@@ -123,6 +123,23 @@ TEST(ContactByFall, AShortRodIsStoppedThatFallsFar) {
   EXPECT_LT(least, 0.5);
 }
 
+/// A ball beside a rod of twenty times its size: 5/14 g t^2 sin of the slope.
+TEST(ContactOnASlope, ABallRollsAtAToleranceOfAThousandth) {
+  Json scene = bodies_alone();
+  const double slope = 0.35;
+  scene["forces"] = {{{"type", "gravity"},
+                      {"acceleration", {kGravity * std::sin(slope), 0.0, -kGravity * std::cos(slope)}}}};
+  scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}},
+    {"shape": {"type": "ball", "radius": 0.05}, "position": [0, 0, 0.051], "free": {"mass": 0.1}}])");
+  scene["contact"] = {{"friction", 0.5}};
+  scene["simulation"]["tolerance"] = 1e-3;
+  scene::SceneRun run(parsed(scene));
+  double last = 0.0;
+  const Report report = run.run([&](const scene::Snapshot& now) { last = now.bodies[1].position.x(); });
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_NEAR(last, 5.0 / 14.0 * kGravity * std::sin(slope), 5e-3);
+}
+
 /// On a floor that moves friction carries a rod along: v t - v^2 / (2 mu g) once it has its speed.
 TEST(ContactOnABelt, ARodIsTakenAlong) {
   Json scene = scene_of("[[0, 0, 0.01095], [1, 0, 0.01095]]");

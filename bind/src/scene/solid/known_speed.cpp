@@ -8,14 +8,24 @@ namespace {
 
 constexpr int kTimes = 1000;
 
-/// Of a rod that begins to move as a rigid body. About its centre of mass it moves no point by more than
-/// about any of its own.
-double speed_of(const StartMotion& motion, const Rod& rod) {
+Vec3 centre_of(const StartMotion& motion, const Scene& scene) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  for (const std::size_t pair : motion.curve_pairs)
+    for (std::size_t i = 0; i < scene.rods[pair].p.size(); ++i) {
+      sum += scene.rods[pair].mass[i] * scene.rods[pair].p[i];
+      mass += scene.rods[pair].mass[i];
+    }
+  return sum / mass;
+}
+
+/// Of curve-pairs that begin to move as one rigid body.
+double speed_of(const StartMotion& motion, const Scene& scene) {
+  const Vec3 about = motion.about ? *motion.about : centre_of(motion, scene);
   double fastest = 0.0;
-  for (const Vec3& p : rod.p) {
-    const Vec3 arm = p - motion.about.value_or(rod.p.front());
-    fastest = std::max(fastest, (motion.velocity + motion.spin.cross(arm)).norm());
-  }
+  for (const std::size_t pair : motion.curve_pairs)
+    for (const Vec3& p : scene.rods[pair].p)
+      fastest = std::max(fastest, (motion.velocity + motion.spin.cross(p - about)).norm());
   return fastest;
 }
 
@@ -43,9 +53,7 @@ double fastest(const std::function<AnchorPose(double)>& motion, double duration)
 
 double known_speed(const SceneFile& file) {
   double own = 0.0, driven = 0.0;
-  for (const StartMotion& motion : file.start_motions)
-    for (const std::size_t pair : motion.curve_pairs)
-      own = std::max(own, speed_of(motion, file.scene.rods[pair]));
+  for (const StartMotion& motion : file.start_motions) own = std::max(own, speed_of(motion, file.scene));
   for (const Body& body : file.scene.bodies) own = std::max(own, speed_of(body));
   for (const Anchor& anchor : file.scene.anchors)
     if (anchor.motion) own = std::max(own, fastest(anchor.motion, file.duration));
