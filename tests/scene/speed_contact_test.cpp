@@ -125,7 +125,7 @@ TEST(ContactByFall, AShortRodIsStoppedThatFallsFar) {
 
 constexpr double kSlope = 0.35;
 
-/// A ball that bounces, while a rod of two thousand times its size is carried away a hundred times as fast: its
+/// A ball that bounces, while a rod 2000 times as long is carried away a hundred times as fast: its
 /// errors are measured on its own.
 TEST(ContactOnASlope, ABallBouncesToItsOwnTolerance) {
   Json scene = bodies_alone();
