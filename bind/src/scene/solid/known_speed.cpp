@@ -1,7 +1,10 @@
 #include "scene/solid/known_speed.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <vector>
 
 namespace tendril::scene {
 namespace {
