@@ -12,6 +12,10 @@ using lanes::Triple;
 using V = Triple<Pack>;
 using M = Matrix<Pack>;
 
+// What edge_stiffness.cpp says of one edge, without what only first edges of children and swivels have: those go
+// there. Sums are taken by the vectors along three edges and turned to four nodes at the end: 25 products of
+// vectors an edge, where by nodes there would be 52.
+
 /// Where the vectors of a spring stand in a pack, and along which edge each is: 0 before, 1 at, 2 after.
 struct Spring {
   std::size_t begin, edge, count;
@@ -55,7 +59,9 @@ TENDRIL_INLINE V carried_spin(const V& from, const V& t) {
   return (2.0 / (1.0 + dot(from, t))) * cross(from, t);
 }
 
-/// Of both deviations at one end of the edges.
+/// Of both deviations at one end of the edges, as slopes_of has them: by the edge itself, and by the two edges
+/// that the tangent halves, of which it is one. Where the frame is held the bisector's inverse is 0, so that
+/// nothing turns with the edges.
 TENDRIL_INLINE void slopes_at_end(std::size_t i, std::size_t side, const Edges& edges, const V& spin,
                                   const Kinematics& kin, SlopePack& to) {
   const lanes::Axes<Pack> f = lanes::axes_at<Pack>(kin, i + side);
@@ -80,7 +86,7 @@ TENDRIL_INLINE void slopes_at_end(std::size_t i, std::size_t side, const Edges& 
   }
 }
 
-TENDRIL_LANES void slopes_of_pack(const Model&, std::size_t i, const State& reference, const Kinematics& kin,
+TENDRIL_LANES void slopes_of_pack(std::size_t i, const State& reference, const Kinematics& kin,
                                   SlopePack& to) {
   const Edges edges(i, kin);
   const V ta = load<Pack>(kin.frame.z, i), tb = load<Pack>(kin.frame.z, i + 1);
@@ -88,6 +94,7 @@ TENDRIL_LANES void slopes_of_pack(const Model&, std::size_t i, const State& refe
           spin_b = carried_spin(load(reference.tangent, i + 1), tb);
   slopes_at_end(i, 0, edges, spin_a, kin, to);
   slopes_at_end(i, 1, edges, spin_b, kin, to);
+  // The twist goes with the difference of the angles, so that the carried spins enter with either sign.
   const V turn = (1.0 / (1.0 + dot(ta, tb))) * cross(ta, tb);
   const V share_a = load<Pack>(kin.inverse_bisector.data() + i) * across(ta, turn + spin_a);
   const V share_b = load<Pack>(kin.inverse_bisector.data() + i + 1) * across(tb, turn - spin_b);
@@ -118,6 +125,7 @@ TENDRIL_INLINE void add_spring(std::size_t q, const Pack& stiffness, const Slope
       M& k = to.k[s.edge + x][s.edge + y];
       k = k + outer(g[x], rate[y]);
     }
+  // Its slopes by the angles are -1 and 1 at any state: they do not turn.
   if (q == kTwist) {
     for (std::size_t y = 0; y < 3; ++y) {
       to.of_angle[0][y] = to.of_angle[0][y] - stiffness * rate[y];
@@ -148,7 +156,7 @@ TENDRIL_INLINE M pull_of(const Model& model, std::size_t i, const Kinematics& ki
 
 constexpr std::size_t kStride = 16 * EdgePack::kBlocks;
 
-/// From the vectors to the nodes that they join.
+/// From the vectors to the nodes that they join: each goes to the one with a minus, to the next with a plus.
 TENDRIL_INLINE void to_nodes(const Turned& from, EdgePack& to) {
   const M none{};
   const V zero{};
@@ -193,9 +201,8 @@ TENDRIL_LANES void resistance_of_pack(const Model& model, std::size_t i, const K
 
 }  // namespace
 
-void edge_slopes(const Model& model, std::size_t i, const State& reference, const Kinematics& kin,
-                 SlopePack& to) {
-  slopes_of_pack(model, i, reference, kin, to);
+void edge_slopes(std::size_t i, const State& reference, const Kinematics& kin, SlopePack& to) {
+  slopes_of_pack(i, reference, kin, to);
 }
 
 void turned_resistance(const Model& model, std::size_t i, const Kinematics& kin, const SlopePack& at,

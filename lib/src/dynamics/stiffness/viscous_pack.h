@@ -14,8 +14,7 @@ struct SlopePack {
 };
 
 /// Of edges i .. i + 3 of one rod, at any state near the reference.
-void edge_slopes(const Model& model, std::size_t i, const State& reference, const Kinematics& kin,
-                 SlopePack& to);
+void edge_slopes(std::size_t i, const State& reference, const Kinematics& kin, SlopePack& to);
 
 /// TurnedResistance and turned_pull of the same edges, times minus their viscosity.
 /// \param at             slopes at the state, of which kin holds the velocities too

@@ -45,7 +45,7 @@ class ViscousTurning {
             sink.block(model_.carrier[row], model_.carrier[column], row == column ? Mat3(-pull) : pull);
     };
     for_edges(one, [&](std::size_t i, std::size_t skip, std::size_t k) {
-      edge_slopes(model_, i, state, kin, here_);
+      edge_slopes(i, state, kin, here_);
       turned_resistance(model_, i, kin, here_, packs_[0][k], packs_[1][k], 2 * step, pack_);
       visit(model_, pack_, i, skip, sink);
     });
@@ -79,7 +79,7 @@ class ViscousTurning {
                   std::size_t i) { edge_slopes(model_, rod, i, state, kin, slopes_[side][i]); },
               [&](std::size_t i, std::size_t, std::size_t k) {
                 if (k == packs_[side].size()) packs_[side].emplace_back();
-                edge_slopes(model_, i, state, kin, packs_[side][k]);
+                edge_slopes(i, state, kin, packs_[side][k]);
               });
     return at;
   }
