@@ -37,13 +37,16 @@ double speed_of(const Body& body) {
   return body.velocity.norm() + body.spin.norm() * size;
 }
 
-/// Whether rods are held by no anchor, nor joined to one that is.
+/// Whether rods are held by no anchor, nor joined to one that is. Parents come before their children.
 std::vector<bool> free_rods(const Scene& scene) {
-  std::vector<bool> free(scene.rods.size(), true);
-  for (const Anchor& anchor : scene.anchors) free[anchor.rod] = false;
-  for (const Joint& joint : scene.joints)  // parents come first
-    free[joint.parent] = free[joint.child] = free[joint.parent] && free[joint.child];
-  return free;
+  std::vector<bool> held(scene.rods.size(), false);
+  for (const Anchor& anchor : scene.anchors) held[anchor.rod] = true;
+  for (std::size_t k = scene.joints.size(); k-- > 0;)
+    if (held[scene.joints[k].child]) held[scene.joints[k].parent] = true;
+  for (const Joint& joint : scene.joints)
+    if (held[joint.parent]) held[joint.child] = true;
+  held.flip();
+  return held;
 }
 
 double fastest(const std::function<AnchorPose(double)>& motion, double duration) {
