@@ -1,10 +1,8 @@
 #include <tendril/base/error.h>
+#include <tendril/contact/law.h>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
-
-#include "response.h"
 
 namespace tendril::contact {
 namespace {
@@ -25,15 +23,6 @@ void check(const Law& law, const std::string& place) {
   require(at_least_0(law.stick_stiffness), place + ".stick_stiffness", law.stick_stiffness, "at least 0");
   require(at_least_0(law.stick_damping), place + ".stick_damping", law.stick_damping, "at least 0");
   require(at_least_0(law.damping), place + ".damping", law.damping, "at least 0");
-}
-
-void refuse_closed(const Law& law, const std::string& what, double gap) {
-  std::ostringstream told, expected;
-  told.imbue(std::locale::classic());
-  told << what << gap;
-  expected.imbue(std::locale::classic());
-  expected << "an open gap; what is " << law.range << " apart begins to be felt";
-  throw InvalidInput("contact", told.str(), expected.str());
 }
 
 Potential potential(const Law& law, double gap) {

@@ -1,5 +1,9 @@
+#include <tendril/base/error.h>
+
 #include <algorithm>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "response.h"
 
@@ -53,6 +57,15 @@ void add_friction(const Law& law, double k, const Nearness& near, const Vec3& n,
 }
 
 }  // namespace
+
+void refuse_closed(const Law& law, const std::string& what, double gap) {
+  std::ostringstream told, expected;
+  told.imbue(std::locale::classic());
+  told << what << gap;
+  expected.imbue(std::locale::classic());
+  expected << "an open gap; what is " << law.range << " apart begins to be felt";
+  throw InvalidInput("contact", told.str(), expected.str());
+}
 
 Normal push_of(const Law& law, double weight, double gap, const Vec3& n, const Mat3& bend, const Vec3& rate,
                const Vec3& spin) {
