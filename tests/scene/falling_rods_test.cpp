@@ -5,12 +5,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "rod_scene.h"
+
 namespace tendril::test {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr double kRadius = 0.01;  // of the rod
 
 /// A solid below the origin that touches it there, and how far a point is from it.
 struct Below {
@@ -29,19 +29,10 @@ double to_box(const Vec3& p) {
 class FallingRod : public testing::TestWithParam<Below> {};
 
 Json falling(const char* points) {
-  Json scene = Json::parse(R"({
-    "version": 1,
-    "curve_pairs": [{"name": "rod", "nodes": 9, "orientation": [0, 1, 0],
-      "material": {"young": 1e9, "poisson": 0.35, "density": 1000},
-      "section": {"type": "circular", "radius": 0.01}}],
-    "forces": [{"type": "gravity", "acceleration": [0, 0, -9.81]}],
-    "simulation": {"duration": 0.6, "tolerance": 1e-3, "frames": 61}
-  })");
-  scene["curve_pairs"][0]["points"] = Json::parse(points);
+  Json scene = rod_scene(points, 1e9);
+  let_fall(scene);
+  scene["simulation"] = {{"duration", 0.6}, {"tolerance", 1e-3}, {"frames", 61}};
   return scene;
-}
-scene::SceneFile file_of(const Json& scene) {
-  return scene::parse_scene(scene.dump(1), "scene.json");
 }
 
 constexpr const char* kOnItsSide = "[[-0.5, 0, 0.4], [0.5, 0, 0.4]]";
@@ -53,10 +44,10 @@ TEST_P(FallingRod, IsStoppedHoweverItLands) {
   for (const char* points : {kOnItsSide, kAslant, kOnItsTip}) {
     Json scene = falling(points);
     scene["bodies"] = Json::array({Json::parse(GetParam().body)});
-    scene::SceneRun run(file_of(scene));
+    scene::SceneRun run(parsed(scene));
     double least = 1.0;
     const Report report = run.run([&](const scene::Snapshot& now) {
-      for (const Vec3& p : now.masses[0]) least = std::min(least, GetParam().distance(p) - kRadius);
+      for (const Vec3& p : now.masses[0]) least = std::min(least, GetParam().distance(p) - kRodRadius);
     });
     EXPECT_EQ(report.stop, Stop::finished) << points << ": " << report.reason;
     EXPECT_GT(least, 0.0) << points;
@@ -91,7 +82,7 @@ TEST_P(FallingRod, IsStoppedByACornerOfItsMesh) {
   Json scene = falling(kOnItsTip);
   scene["bodies"] = Json::array({Json::parse(GetParam().body)});
   scene["contact"] = {{"of", "mesh"}, {"skin", 0.002}};
-  scene::SceneRun run(file_of(scene), post());
+  scene::SceneRun run(parsed(scene), post());
   double least = 1.0;
   const Report report = run.run([&](const scene::Snapshot& now) {
     for (const Vec3& p : now.points) least = std::min(least, GetParam().distance(p));
@@ -111,7 +102,7 @@ TEST(FallingRodOnARod, IsStoppedAcrossItAndByItsTip) {
     bar["anchors"] = Json::parse(R"([{"nodes": [0, 8]}])");
     scene["curve_pairs"].push_back(bar);
     scene["self_contact"] = Json::object();
-    scene::SceneRun run(file_of(scene));
+    scene::SceneRun run(parsed(scene));
     double least = 1.0;
     const Report report = run.run([&](const scene::Snapshot& now) {
       const std::vector<Vec3>& with = now.masses[1];
@@ -123,7 +114,7 @@ TEST(FallingRodOnARod, IsStoppedAcrossItAndByItsTip) {
         }
     });
     EXPECT_EQ(report.stop, Stop::finished) << points << ": " << report.reason;
-    EXPECT_GT(least, 2 * kRadius) << points;
+    EXPECT_GT(least, 2 * kRodRadius) << points;
     EXPECT_LT(least, 0.06) << points;  // it came near
     EXPECT_LT(std::abs(report.imbalance), 0.01) << points;
   }

@@ -3,30 +3,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rod_scene.h"
+
 namespace tendril::test {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kThick = 0.01, kGravity = 9.81;
+constexpr double kGravity = 9.81;
 
 Json scene_of(const char* points) {
-  Json scene = Json::parse(R"({
-    "version": 1,
-    "curve_pairs": [{"name": "rod", "nodes": 9, "orientation": [0, 1, 0],
-      "material": {"young": 1e8, "poisson": 0.35, "density": 1000},
-      "section": {"type": "circular", "radius": 0.01}}],
-    "simulation": {"duration": 1, "tolerance": 1e-4, "frames": 51}
-  })");
-  scene["curve_pairs"][0]["points"] = Json::parse(points);
+  Json scene = rod_scene(points, 1e8);
+  scene["simulation"] = {{"duration", 1}, {"tolerance", 1e-4}, {"frames", 51}};
   return scene;
 }
-scene::SceneFile parsed(const Json& scene) {
-  return scene::parse_scene(scene.dump(1), "scene.json");
-}
-void fall(Json& scene) {
-  scene["forces"] = Json::parse(R"([{"type": "gravity", "acceleration": [0, 0, -9.81]}])");
-}
+
 /// But for a rod far away.
 Json bodies_alone() {
   Json scene = scene_of("[[50, 0, 50], [51, 0, 50]]");
@@ -54,7 +45,7 @@ TEST(ContactBySpeed, BallsExchangeTheirVelocitiesWithoutGravity) {
 
 TEST(ContactBySpeed, ABoxThatIsDrivenFastSweepsARodAsideAndGoesThroughNone) {
   Json scene = scene_of("[[0, 0, 0], [0, 0, 1]]");
-  fall(scene);
+  let_fall(scene);
   scene["curve_pairs"][0]["anchors"] = Json::parse(R"([{"node": 0, "hold": "both"}])");
   scene["bodies"] =
       Json::parse(R"([{"shape": {"type": "box", "size": [0.1, 0.4, 0.1]}, "position": [-1, 0, 0.8],
@@ -65,8 +56,8 @@ TEST(ContactBySpeed, ABoxThatIsDrivenFastSweepsARodAsideAndGoesThroughNone) {
   const Report report = run.run([&](const scene::Snapshot& now) {
     const Vec3 centre(-1.0 + 50.0 * now.time, 0.0, 0.8);
     for (const Vec3& p : now.masses[0])
-      least =
-          std::min(least, ((p - centre).cwiseAbs() - Vec3(0.05, 0.2, 0.05)).cwiseMax(0.0).norm() - kThick);
+      least = std::min(least,
+                       ((p - centre).cwiseAbs() - Vec3(0.05, 0.2, 0.05)).cwiseMax(0.0).norm() - kRodRadius);
   });
   EXPECT_EQ(report.stop, Stop::finished) << report.reason;
   EXPECT_GT(least, 0.0);
@@ -90,7 +81,7 @@ TEST(ContactByFall, ABoxIsStoppedOnItsCorner) {
        {R"({"shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "axis": [-1, -1, 1]})",
         R"({"shape": {"type": "cylinder", "radius": 0.03, "length": 0.06}, "axis": [1, 0, 1]})"}) {
     Json scene = bodies_alone();
-    fall(scene);
+    let_fall(scene);
     scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
     scene["bodies"].push_back(Json::parse(body));
     scene["bodies"][1]["position"] = {0, 0, 1.5};
@@ -109,14 +100,14 @@ TEST(ContactByFall, ABoxIsStoppedOnItsCorner) {
 
 TEST(ContactByFall, AShortRodIsStoppedThatFallsFar) {
   Json scene = scene_of("[[0, 0, 2], [0.04, 0, 2.03]]");
-  fall(scene);
+  let_fall(scene);
   scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
   scene["contact"] = {{"damping", 0.1}};
   scene["simulation"]["tolerance"] = 1e-3;
   scene::SceneRun run(parsed(scene));
   double least = 1.0;
   const Report report = run.run([&](const scene::Snapshot& now) {
-    for (const Vec3& p : now.masses[0]) least = std::min(least, p.z() - kThick);
+    for (const Vec3& p : now.masses[0]) least = std::min(least, p.z() - kRodRadius);
   });
   EXPECT_EQ(report.stop, Stop::finished) << report.reason;
   EXPECT_GT(least, 0.0);
@@ -152,7 +143,7 @@ TEST(ContactOnASlope, ABallBouncesToItsOwnTolerance) {
 /// What hardly moves yet, lying on a floor and pushed, is not refused for its energy.
 TEST(ContactOnASlope, ABallIsPushedAlongAFloor) {
   Json scene = bodies_alone();
-  fall(scene);
+  let_fall(scene);
   scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}},
     {"shape": {"type": "box", "size": [0.1, 0.5, 0.2]}, "position": [-0.2, 0, 0.15],
      "translation": {"velocity": [0.5, 0, 0]}},
@@ -190,7 +181,7 @@ TEST(ContactOnASlope, ABallRollsAtAToleranceOfAThousandth) {
 /// On a floor that moves friction carries a rod along: v t - v^2 / (2 mu g) once it has its speed.
 TEST(ContactOnABelt, ARodIsTakenAlong) {
   Json scene = scene_of("[[0, 0, 0.01095], [1, 0, 0.01095]]");
-  fall(scene);
+  let_fall(scene);
   scene["bodies"] =
       Json::parse(R"([{"shape": {"type": "half_space"}, "translation": {"velocity": [0.5, 0, 0]}}])");
   scene["contact"] = {{"friction", 0.1}, {"damping", 0.3}};
@@ -207,7 +198,7 @@ TEST(ContactBegunDeep, ThrowsOutWithTheEnergyOfTheStart) {
   double heights[2] = {};
   for (const int longer : {0, 1}) {
     Json scene = scene_of("[[0, 0, 0.0101], [1, 0, 0.0101]]");
-    fall(scene);
+    let_fall(scene);
     scene["bodies"] = Json::parse(R"([{"shape": {"type": "half_space"}}])");
     scene["contact"] = {{"friction", 0.1}};
     scene["simulation"]["duration"] = longer ? 3.0 : 0.1;
