@@ -12,9 +12,9 @@ using lanes::Triple;
 using V = Triple<Pack>;
 using M = Matrix<Pack>;
 
-// What edge_stiffness.cpp says of one edge, without what only first edges of children and swivels have: those go
-// there. Sums are taken by the vectors along three edges and turned to four nodes at the end: 25 products of
-// vectors an edge, where by nodes there would be 52.
+// What edge_stiffness.cpp says of one edge, without what only first edges of children and swivels have: those
+// go there. Sums are taken by the vectors along three edges and turned to four nodes at the end: 25 products
+// of vectors an edge, where by nodes there would be 52.
 
 /// Where the vectors of a spring stand in a pack, and along which edge each is: 0 before, 1 at, 2 after.
 struct Spring {
@@ -59,9 +59,9 @@ TENDRIL_INLINE V carried_spin(const V& from, const V& t) {
   return (2.0 / (1.0 + dot(from, t))) * cross(from, t);
 }
 
-/// Of both deviations at one end of the edges, as slopes_of has them: by the edge itself, and by the two edges
-/// that the tangent halves, of which it is one. Where the frame is held the bisector's inverse is 0, so that
-/// nothing turns with the edges.
+/// Of both deviations at one end of the edges, as slopes_of has them: by the edge itself, and by the two
+/// edges that the tangent halves, of which it is one. Where the frame is held the bisector's inverse is 0, so
+/// that nothing turns with the edges.
 TENDRIL_INLINE void slopes_at_end(std::size_t i, std::size_t side, const Edges& edges, const V& spin,
                                   const Kinematics& kin, SlopePack& to) {
   const lanes::Axes<Pack> f = lanes::axes_at<Pack>(kin, i + side);
