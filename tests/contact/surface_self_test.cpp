@@ -39,9 +39,28 @@ TEST(SurfaceSelf, KeepsToWhatItSaysOfItself) {
       for (Vec3& p : s.p) p += random.in_cube(1e-5);
       const ForceCheck check = check_force(contact, s.view(), 1e-6);
       EXPECT_TRUE(check.undeclared.empty());
+      EXPECT_LT(check.local, 1e-12);
       ASSERT_TRUE(contact.has_energy());
       EXPECT_LT(check.energy, 2e-6);
     }
+}
+
+/// What it says of a state, that implicit steps differentiate, with friction and damping, and after steps in
+/// which it slid.
+TEST(SurfaceSelf, SaysWhatActsAtAState) {
+  Random random(6);
+  const Sheets sheets = test::crossed(2 * kSelfSkin + 0.012);
+  const SurfaceSelfContact contact(sheets.surface(kSelfSkin),
+                                   law_of(Law::Kind::barrier, kSelfRange, 0.3, 0.2));
+  Shown s = shown_of(sheets.rods, random, 0.002, 0.5);
+  s.memory = contact.remember(s.view(), nullptr);
+  for (int step = 0; step < 3; ++step) {
+    for (Vec3& p : s.p) p += random.in_cube(1e-4);
+    s.memory = contact.remember(s.view(), s.memory);
+  }
+  const ForceCheck check = check_force(contact, s.view(), 1e-7);
+  EXPECT_TRUE(check.undeclared.empty());
+  EXPECT_LT(check.local, 1e-12);
 }
 
 /// What comes of inner forces alone: no force, and no torque but for friction.

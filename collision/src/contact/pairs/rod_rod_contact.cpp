@@ -37,6 +37,21 @@ void add_derivatives(const PairModel& model, const StateView& state, const PairT
         }
 }
 
+/// The nodes between which points hang that are in the range of each other.
+LocalCouplings acting_at(const PairModel& model, const StateView& state) {
+  LocalCouplings result;
+  each_touch(model, state, model.lines.positions(state), ledger_of(state.memory),
+             [&](const PairTouch& touch) {
+               const std::size_t e = shares_of(model, state, touch.at.first).node;
+               const std::size_t f = shares_of(model, state, touch.at.second).node;
+               if (!result.pairs.empty() && result.pairs.back() == Couplings::Pair(e + 1, f + 1)) return;
+               const Couplings all = Couplings::among({e, e + 1, f, f + 1});
+               result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+               result.pairs.emplace_back(e + 1, f + 1);
+             });
+  return result;
+}
+
 }  // namespace
 
 RodRodContact::RodRodContact(std::vector<ContactRod> rods, const std::vector<RodJoint>& joints,
@@ -66,7 +81,8 @@ Couplings RodRodContact::couplings(std::span<const NodeRange> rods) const {
   std::vector<std::size_t> nodes;
   for (const ContactRod& rod : model_->lines.rods)
     for (std::size_t i = 0; i < rods[rod.rod].count; ++i) nodes.push_back(rods[rod.rod].first + i);
-  Couplings all = Couplings::among(nodes);
+  Couplings all = Couplings::among(nodes).at_states(
+      [model = model_.get()](const StateView& state) { return acting_at(*model, state); });
   if (model_->law.friction > 0.0) return all;
   return std::move(all).with([model = model_.get()](const StateView& state, LoadDerivatives& to) {
     each_touch(*model, state, model->lines.positions(state), ledger_of(state.memory),

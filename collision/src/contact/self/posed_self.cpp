@@ -18,19 +18,29 @@ bool fits(Points points) {
 }  // namespace
 
 PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept)
-    : model_(model), state_(state), kept_(kept), scratch_(model.take_scratch()) {
-  const std::size_t n = model.rods();
-  bounded_.resize(n, By::rod);
-  for (std::size_t rod = 0; rod < n; ++rod) {
-    arms_.push_back(model.points().curves().arms(state, model.points().rods()[rod]));
-    sound_ = sound_ && fits(masses(rod)) && fits(arms_.back());
-  }
+    : model_(model), state_(state), kept_(kept), scratch_(model.take_scratch()), arms_(model.rods()) {
+  bounded_.resize(arms_.size(), By::rod);
+  for (std::size_t rod = 0; rod < arms_.size(); ++rod) sound_ = take_arms(rod) && sound_;
   if (!sound_) return;
   if (kept_)
     look();
   else
     search();
   if (sound_) place();
+}
+
+PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept,
+                     const SelfInRange& near)
+    : model_(model), state_(state), kept_(kept), scratch_(model.take_scratch()), arms_(model.rods()) {
+  concerned_ = near.rods;
+  vertices_ = near.vertices;
+  for (const std::uint32_t rod : concerned_) sound_ = take_arms(rod) && sound_;
+  if (sound_) place_vertices();
+}
+
+bool PosedSelf::take_arms(std::size_t rod) {
+  arms_[rod] = model_.points().curves().arms(state_, model_.points().rods()[rod]);
+  return fits(masses(rod)) && fits(arms_[rod]);
 }
 
 Points PosedSelf::masses(std::size_t rod) const {
@@ -139,13 +149,17 @@ std::vector<std::uint32_t> PosedSelf::rods_of_awake() const {
 void PosedSelf::place() {
   if (awake_.empty()) return;
   concerned_ = rods_of_awake();
-  for (const std::uint32_t rod : concerned_) curve(rod);
   std::vector<char> seen(model_.surface.rest.size(), 0);
   for (const std::uint32_t g : awake_)
     for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
       for (const std::uint32_t v : model_.mesh.patches[patch].corners)
         if (!std::exchange(seen[v], 1)) vertices_.push_back(v);
   std::sort(vertices_.begin(), vertices_.end());
+  place_vertices();
+}
+
+void PosedSelf::place_vertices() {
+  for (const std::uint32_t rod : concerned_) curve(rod);
   for (std::size_t i = 0; i < vertices_.size(); ++i)
     scratch_->slot[vertices_[i]] = static_cast<std::uint32_t>(i);
   now_.resize(vertices_.size());

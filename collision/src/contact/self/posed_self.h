@@ -57,6 +57,9 @@ class PosedSelf {
  public:
   /// \param kept  null at the start
   PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept);
+  /// At a state beside one: no group is awake, and nothing is looked for.
+  /// \param near  what was in range there, kept by reference
+  PosedSelf(const SelfModel& model, const StateView& state, const SelfLedger* kept, const SelfInRange& near);
   ~PosedSelf() { model_.give_back(std::move(scratch_)); }
   PosedSelf(const PosedSelf&) = delete;
   PosedSelf& operator=(const PosedSelf&) = delete;
@@ -103,6 +106,8 @@ class PosedSelf {
   bool within_margins(std::size_t rod) const;
   void wake(const std::vector<std::uint32_t>& moving);
   void search();
+  bool take_arms(std::size_t rod);
+  void place_vertices();
   const CurvePair& kept_curve(std::size_t rod);
   void place();
 
@@ -110,9 +115,9 @@ class PosedSelf {
   const StateView& state_;
   const SelfLedger* kept_;
   bool sound_ = true;
-  std::vector<std::vector<Vec3>> arms_;
   std::unique_ptr<SelfScratch> scratch_;
-  std::vector<char> made_;  ///< per rod: its curve
+  std::vector<std::vector<Vec3>> arms_;  ///< of those looked at
+  std::vector<char> made_;               ///< per rod: its curve
   std::vector<double> coarse_, motions_;
   std::vector<By> bounded_;  ///< per rod
   std::shared_ptr<const SelfList> own_;
@@ -151,10 +156,14 @@ struct SelfClosed {
 
 /// Everything within the range of each other.
 struct SelfMeetings {
-  std::vector<SelfResponse> all;     ///< vertices with faces, then edges
+  std::vector<SelfResponse> all;  ///< vertices with faces, then edges
+  SelfPairs pairs;                ///< all that are in the range: those of `all` and what is counted with them
   std::optional<SelfClosed> closed;  ///< then `all` says nothing
   long looked_at = 0;
 };
 SelfMeetings meetings_of(const SelfModel& model, PosedSelf& surface, const SelfLedger* kept);
+/// The same as meetings_of, of pairs that are given.
+SelfMeetings meetings_of(const SelfModel& model, PosedSelf& surface, const SelfLedger* kept,
+                         const SelfPairs& pairs);
 
 }  // namespace tendril::contact

@@ -13,14 +13,16 @@ namespace tendril::contact {
 namespace {
 
 // A list serves while what moves stays within its margin: some steps' motion, and no less than what it takes
-// to come out of the range.
-constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0;
+// to come out of the range. Where steps are long against patches, all of which such a margin would have near
+// each other, fewer steps.
+constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 3.0, kOfPatch = 0.1;
 // What of a rod's room its motion may take before it is looked at by its curves, and stands anew.
 constexpr double kOfRoom = 0.7;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
-// A list is made anew where a next step with so many times this one's motion of masses would leave it.
-constexpr double kNextStep = 4.0;
+// A list is made anew where a next step with so many times this one's motion of masses would leave it, or
+// this share of its margin is all that is left.
+constexpr double kNextStep = 4.0, kLeastLeft = 0.6;
 
 double farthest(Points a, Points b) {
   double most = 0.0;
@@ -102,9 +104,13 @@ class SelfKeeper {
       model_.motions(rod, *before_->searched[rod], surface_.curve(rod), moved);
       for (const std::uint32_t span : model_.spans_of[rod])
         if (moved[span] < kInfinite)
-          margin[span] = std::max(margin[span], kMarginOfStep * moved[span] / steps);
+          margin[span] = std::max(margin[span], margin_for(span, moved[span] / steps));
     }
     return margin;
+  }
+
+  double margin_for(std::uint32_t span, double step) const {
+    return std::min(kMarginOfStep * step, std::max(kOfLongStep * step, kOfPatch * model_.patch_size[span]));
   }
 
   /// Within which of its base nothing that a span holds comes near, whatever the others do within theirs.
@@ -164,7 +170,8 @@ class SelfKeeper {
       for (const std::uint32_t span : model_.spans_of[rod]) {
         way[span] = motions[span];
         ledger_->since[span] = std::min(ledger_->since[span] + way[span], far[span]);
-        if (!(ledger_->list->margin[span] - ledger_->since[span] > next)) return false;
+        const double margin = ledger_->list->margin[span];
+        if (!(margin - ledger_->since[span] > std::min(next, kLeastLeft * margin))) return false;
       }
       patches.insert(patches.end(), model_.patches_of[rod].begin(), model_.patches_of[rod].end());
       ledger_->base[rod] = std::make_shared<const RodPose>(pose(rod));

@@ -24,6 +24,16 @@ SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
     most = {std::max(most.at, own.at), std::max(most.rate, own.rate)};
     rod_reach[span.pair] = std::max(rod_reach[span.pair], span.reach);
   }
+  patch_size.resize(mesh.spans.size(), 0.0);
+  for (const SelfPatch& patch : mesh.patches) {
+    Vec3 low = surface.rest[patch.corners[0]], high = low;
+    for (const std::uint32_t v : patch.corners) {
+      low = low.cwiseMin(surface.rest[v]);
+      high = high.cwiseMax(surface.rest[v]);
+    }
+    for (const std::uint32_t span : patch.spans)
+      patch_size[span] = std::max(patch_size[span], (high - low).norm());
+  }
   for (std::uint32_t p = 0; p < mesh.patches.size(); ++p) {
     std::vector<std::uint32_t> of_patch;
     for (const std::uint32_t span : mesh.patches[p].spans) of_patch.push_back(mesh.spans[span].pair);

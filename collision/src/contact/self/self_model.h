@@ -83,8 +83,9 @@ struct SelfModel {
   std::vector<std::vector<std::uint32_t>> patches_of;  ///< per rod: what its spans hold a part of
   std::vector<std::vector<std::uint32_t>> rods_of;     ///< per patch, ascending
   std::vector<LocalGain> span_gain;                    ///< per span
-  std::vector<SpanGain> rod_gain;                      ///< per rod: the largest of its spans
-  std::vector<double> rod_reach;                       ///< likewise
+  std::vector<double> patch_size;  ///< per span: the largest diagonal of its patches, at rest
+  std::vector<SpanGain> rod_gain;  ///< per rod: the largest of its spans
+  std::vector<double> rod_reach;   ///< likewise
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   const RodPoints& points() const { return *surface.points; }
@@ -126,5 +127,14 @@ struct SelfModel {
   mutable std::mutex lock_;  ///< of what follows: a force is evaluated by several threads
   mutable std::vector<std::unique_ptr<SelfScratch>> scratch_;
 };
+
+/// What is within the range of each other at a state.
+struct SelfInRange {
+  SelfPairs pairs;
+  std::vector<std::uint32_t> vertices;               ///< of these, ascending
+  std::vector<std::uint32_t> rods;                   ///< that they are bound to, ascending
+  std::vector<std::vector<std::uint32_t>> together;  ///< rods of a pair, ascending; each once
+};
+SelfInRange in_range(const SelfModel& model, SelfPairs pairs);
 
 }  // namespace tendril::contact

@@ -119,4 +119,44 @@ double SelfModel::edge_distance(const SelfPair& pair, const PlacedVertices& at) 
   return apart(feet_of(at[a], at[b], at[c], at[d]), at[a], at[b], at[c], at[d]).norm();
 }
 
+namespace {
+
+/// Rods that some vertices are bound to, ascending.
+std::vector<std::uint32_t> rods_of(const SelfModel& model, const std::array<std::uint32_t, 4>& vertices) {
+  std::vector<std::uint32_t> rods;
+  std::vector<BoundShare> shares;
+  for (const std::uint32_t v : vertices) {
+    model.points().points().shares(v, shares);
+    for (const BoundShare& share : shares) rods.push_back(static_cast<std::uint32_t>(share.pair));
+  }
+  sort_once(rods);
+  return rods;
+}
+
+}  // namespace
+
+SelfInRange in_range(const SelfModel& model, SelfPairs pairs) {
+  SelfInRange result{std::move(pairs), {}, {}, {}};
+  const auto note = [&](const std::array<std::uint32_t, 4>& vertices) {
+    std::vector<std::uint32_t> rods = rods_of(model, vertices);
+    result.vertices.insert(result.vertices.end(), vertices.begin(), vertices.end());
+    result.rods.insert(result.rods.end(), rods.begin(), rods.end());
+    result.together.push_back(std::move(rods));
+  };
+  for (const SelfPair& pair : result.pairs.faces) {
+    const auto& [a, b, c] = model.surface.triangles[pair.second];
+    note({pair.first, a, b, c});
+  }
+  for (const SelfPair& pair : result.pairs.edges) {
+    const auto& [a, b] = model.mesh.edges[pair.first].end;
+    const auto& [c, d] = model.mesh.edges[pair.second].end;
+    note({a, b, c, d});
+  }
+  sort_once(result.vertices);
+  sort_once(result.rods);
+  std::sort(result.together.begin(), result.together.end());
+  result.together.erase(std::unique(result.together.begin(), result.together.end()), result.together.end());
+  return result;
+}
+
 }  // namespace tendril::contact

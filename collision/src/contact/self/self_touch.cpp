@@ -31,6 +31,20 @@ class SelfTouches {
       look_at(g);
       if (out_.closed) return std::move(out_);
     }
+    return respond();
+  }
+  SelfMeetings run(const SelfPairs& pairs) {
+    far_ = model_.meets();
+    look_at(pairs, nullptr, nullptr, 0.0);
+    return out_.closed ? std::move(out_) : respond();
+  }
+
+ private:
+  SelfMeetings respond() {
+    for (const Hit& hit : hits_) out_.pairs.faces.push_back({hit.vertex, hit.place.face});
+    for (const auto& [near, flat] : edges_)
+      out_.pairs.edges.push_back(
+          {static_cast<std::uint32_t>((near.key & ~kEdges) >> 32), static_cast<std::uint32_t>(near.key)});
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
       return std::pair(a.vertex, a.place.face) < std::pair(b.vertex, b.place.face);
     });
@@ -44,7 +58,6 @@ class SelfTouches {
     return std::move(out_);
   }
 
- private:
   struct Hit {
     std::uint32_t vertex;
     Place place;
@@ -355,6 +368,11 @@ class SelfTouches {
 
 SelfMeetings meetings_of(const SelfModel& model, PosedSelf& surface, const SelfLedger* kept) {
   return SelfTouches(model, surface, kept).run();
+}
+
+SelfMeetings meetings_of(const SelfModel& model, PosedSelf& surface, const SelfLedger* kept,
+                         const SelfPairs& pairs) {
+  return SelfTouches(model, surface, kept).run(pairs);
 }
 
 }  // namespace tendril::contact

@@ -12,14 +12,15 @@ SurfaceSelfContact::SurfaceSelfContact(ContactSurface surface, const Law& law, M
     : model_(std::make_unique<const SelfModel>(std::move(surface), law, which)) {}
 SurfaceSelfContact::~SurfaceSelfContact() = default;
 
-void SurfaceSelfContact::add(const StateView& state, const Loads& loads) const {
-  const SelfModel& model = *model_;
-  const SelfLedger* kept = self_ledger_of(state.memory);
-  PosedSelf surface(model, state, kept);
-  const std::size_t node = state.rods[model.points().rods().front()].first;
-  if (!surface.sound()) return loads.refuse(node);
-  if (surface.awake().empty()) return;
-  const SelfMeetings meetings = meetings_of(model, surface, kept);
+namespace {
+
+std::size_t first_node(const SelfModel& model, const StateView& state) {
+  return state.rods[model.points().rods().front()].first;
+}
+
+void add_forces(const SelfModel& model, const StateView& state, const PosedSelf& surface,
+                const SelfMeetings& meetings, const Loads& loads) {
+  const std::size_t node = first_node(model, state);
   if (meetings.closed) return loads.refuse(node);
   if (meetings.all.empty()) return;
   std::vector<Vec3> all(surface.vertices().size(), Vec3::Zero());
@@ -42,8 +43,46 @@ void SurfaceSelfContact::add(const StateView& state, const Loads& loads) const {
                            loads);
 }
 
+/// What acts at a state: the nodes of rods whose parts meet there couple, and beside it only those parts are
+/// looked at.
+LocalCouplings acting_at(const SelfModel& model, const StateView& state) {
+  const SelfLedger* kept = self_ledger_of(state.memory);
+  PosedSelf surface(model, state, kept);
+  if (!surface.sound() || surface.awake().empty()) return {};
+  auto near = std::make_shared<const SelfInRange>(in_range(model, meetings_of(model, surface, kept).pairs));
+  LocalCouplings result;
+  for (const std::vector<std::uint32_t>& rods : near->together) {
+    std::vector<std::size_t> nodes;
+    for (const std::uint32_t rod : rods) {
+      const NodeRange& range = state.rods[model.points().rods()[rod]];
+      for (std::size_t i = range.first; i < range.first + range.count; ++i) nodes.push_back(i);
+    }
+    const Couplings all = Couplings::among(nodes);
+    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+  }
+  result.add = [&model, near](const StateView& beside, const Loads& loads) {
+    const SelfLedger* at = self_ledger_of(beside.memory);
+    PosedSelf there(model, beside, at, *near);
+    if (!there.sound()) return loads.refuse(first_node(model, beside));
+    add_forces(model, beside, there, meetings_of(model, there, at, near->pairs), loads);
+  };
+  return result;
+}
+
+}  // namespace
+
+void SurfaceSelfContact::add(const StateView& state, const Loads& loads) const {
+  const SelfModel& model = *model_;
+  const SelfLedger* kept = self_ledger_of(state.memory);
+  PosedSelf surface(model, state, kept);
+  if (!surface.sound()) return loads.refuse(first_node(model, state));
+  if (surface.awake().empty()) return;
+  add_forces(model, state, surface, meetings_of(model, surface, kept), loads);
+}
+
 Couplings SurfaceSelfContact::couplings(std::span<const NodeRange> rods) const {
-  return Couplings::among(nodes_of(model_->points(), rods));
+  return Couplings::among(nodes_of(model_->points(), rods))
+      .at_states([model = model_.get()](const StateView& state) { return acting_at(*model, state); });
 }
 
 void SurfaceSelfContact::check(std::span<const NodeRange> rods) const {

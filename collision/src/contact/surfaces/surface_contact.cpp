@@ -1,5 +1,6 @@
 #include <tendril/contact/surface_contact.h>
 
+#include <set>
 #include <utility>
 
 #include "surface_nodes.h"
@@ -40,6 +41,35 @@ class VertexForces {
   std::vector<Vec3> force_;
 };
 
+/// The nodes of the rods that hold what is in the range of a solid, and the solid where it is free.
+LocalCouplings acting_at(const SurfaceModel& model, const StateView& state) {
+  const SurfaceLedger* kept = surface_ledger_of(state.memory);
+  PosedSurface surface(model, state, kept);
+  LocalCouplings result;
+  if (!surface.sound()) return result;
+  std::set<std::pair<const Patch*, std::size_t>> seen;
+  each_meeting(model, surface, kept, [&](const SurfaceMeeting& meeting) {
+    seen.emplace(meeting.at.patch, meeting.at.near.collider);
+  });
+  std::set<std::vector<std::size_t>> together;
+  for (const auto& [patch, collider] : seen) {
+    std::set<std::size_t> rods;
+    for (const std::uint32_t span : patch->spans)
+      rods.insert(model.points().rods()[model.laid.spans[span].pair]);
+    std::vector<std::size_t> nodes;
+    for (const std::size_t rod : rods)
+      for (std::size_t i = 0; i < state.rods[rod].count; ++i) nodes.push_back(state.rods[rod].first + i);
+    if (const auto& body = model.colliders[collider].body)
+      for (const std::size_t turn : {0, 1}) nodes.push_back(state.p.size() + 2 * *body + turn);
+    together.insert(std::move(nodes));
+  }
+  for (const std::vector<std::size_t>& nodes : together) {
+    const Couplings all = Couplings::among(nodes);
+    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+  }
+  return result;
+}
+
 }  // namespace
 
 SurfaceContact::SurfaceContact(ContactSurface surface, std::vector<Collider> colliders, const Law& law)
@@ -71,7 +101,8 @@ Couplings SurfaceContact::couplings(std::span<const NodeRange> rods) const {
   std::vector<std::size_t> all = nodes_of(model_->points(), rods);
   for (const std::size_t body : model_->colliders.bodies)
     for (const std::size_t turn : {0, 1}) all.push_back(nodes + 2 * body + turn);
-  return Couplings::among(all);
+  return Couplings::among(all).at_states(
+      [model = model_.get()](const StateView& state) { return acting_at(*model, state); });
 }
 
 Couplings SurfaceContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {

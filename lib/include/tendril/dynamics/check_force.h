@@ -6,8 +6,8 @@ namespace tendril {
 
 /// How a force keeps to what it says of itself, at one state. For tests of forces.
 struct ForceCheck {
-  /// Pairs (i, j) that its couplings do not name although the load on node i changes when the state of node j
-  /// is moved, by a single bit: an honest force has none.
+  /// Pairs (i, j) that its couplings do not name, or not at this state, although the load on node i changes
+  /// when the state of node j is moved, by a single bit: an honest force has none.
   std::vector<Couplings::Pair> undeclared;
   /// Largest error of the exact derivatives against central differences, over the largest derivative: some
   /// 1e-9 where they are right and the loads smooth. 0 where none are given.
@@ -15,6 +15,9 @@ struct ForceCheck {
   /// Largest error of force = -dE/dp, and of torque as -dE by a turn of the node's frame or the body, against
   /// central differences, over the largest load. 0 without an energy.
   double energy = 0.0;
+  /// Largest difference between its loads and those that LocalCouplings::add gives, at this state and those
+  /// beside it, over the largest load. 0 where there is none such.
+  double local = 0.0;
 };
 
 /// Moves the state of each node and body a little and compares. Pairs count as in Force::couplings; torques

@@ -41,7 +41,8 @@ struct Evaluation {
     turned_too_far,  ///< a tangent or a body turned by over 126 degrees from its reference
     not_finite,      ///< a number that overflowed, or was not finite to begin with
     not_converged,   ///< an implicit step's equations
-    refused          ///< a force refused the state: Loads::refuse
+    refused,         ///< a force refused the state: Loads::refuse
+    coupled_too_far  ///< forces couple too many nodes there for an implicit step: Couplings
   };
   Outcome outcome = Outcome::ok;                      ///< why
   std::size_t node = 0;                               ///< where: flat index; n + 2b or n + 2b + 1 is body b

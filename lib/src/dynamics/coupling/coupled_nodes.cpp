@@ -32,6 +32,20 @@ void visit_named(const Model& model, const Couplings& couplings, const Visit& vi
         visit(rod.first + i, rod.first + j);
 }
 
+void add_coupled(const Model& model, std::size_t i, std::size_t j, bool by_frames, NodePairs& pairs) {
+  if (!by_frames) {
+    pairs.emplace_back(model.carrier[i], model.carrier[j]);
+    return;
+  }
+  std::vector<std::size_t> all = behind(model, i);
+  if (j != i) {
+    const std::vector<std::size_t> more = behind(model, j);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  for (std::size_t a = 0; a < all.size(); ++a)
+    for (std::size_t b = a + 1; b < all.size(); ++b) pairs.emplace_back(all[a], all[b]);
+}
+
 }  // namespace
 
 NodePairs coupled_by_springs(const Model& model) {
@@ -62,19 +76,14 @@ NodePairs coupled_by_springs(const Model& model) {
 
 NodePairs coupled_by_force(const Model& model, const Couplings& couplings, bool by_frames) {
   NodePairs pairs;
-  visit_named(model, couplings, [&](std::size_t i, std::size_t j) {
-    if (!by_frames) {
-      pairs.emplace_back(model.carrier[i], model.carrier[j]);
-      return;
-    }
-    std::vector<std::size_t> all = behind(model, i);
-    if (j != i) {
-      const std::vector<std::size_t> more = behind(model, j);
-      all.insert(all.end(), more.begin(), more.end());
-    }
-    for (std::size_t a = 0; a < all.size(); ++a)
-      for (std::size_t b = a + 1; b < all.size(); ++b) pairs.emplace_back(all[a], all[b]);
-  });
+  visit_named(model, couplings,
+              [&](std::size_t i, std::size_t j) { add_coupled(model, i, j, by_frames, pairs); });
+  return pairs;
+}
+
+NodePairs coupled_by_pairs(const Model& model, const NodePairs& named, bool by_frames) {
+  NodePairs pairs;
+  for (const auto& [i, j] : named) add_coupled(model, i, j, by_frames, pairs);
   return pairs;
 }
 

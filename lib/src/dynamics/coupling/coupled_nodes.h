@@ -18,5 +18,7 @@ NodePairs coupled_by_springs(const Model& model);
 /// \param by_frames  the pairs it names, and also the neighbours that turn the frames it may see and those
 ///                   that its torques push: what differences need
 NodePairs coupled_by_force(const Model& model, const Couplings& couplings, bool by_frames);
+/// The same of pairs alone.
+NodePairs coupled_by_pairs(const Model& model, const NodePairs& named, bool by_frames);
 
 }  // namespace tendril

@@ -61,18 +61,21 @@ std::vector<std::size_t> elimination_order(const Model& model) {
 
 }  // namespace
 
-BlockPattern pattern_of_equations(const Model& model) {
+BlockPattern pattern_of_equations(const Model& model, const NodePairs& now) {
   const std::vector<std::size_t> order = elimination_order(model);
   const std::size_t most = std::max<std::size_t>(std::size_t{1} << 24, 64 * model.nodes);
   NodePairs pairs = coupled_by_springs(model);
   for (const Model::Acting& acting : model.acting) {
+    if (acting.varies()) continue;
     const NodePairs more = coupled_by_force(model, acting.couplings, acting.by_differences());
     pairs.insert(pairs.end(), more.begin(), more.end());
   }
+  pairs.insert(pairs.end(), now.begin(), now.end());
   BlockPattern all(order, pairs, most);
-  if (all.complete()) return all;
+  if (all.complete() || !now.empty()) return all;
   pairs = coupled_by_springs(model);
   for (const Model::Acting& acting : model.acting) {
+    if (acting.varies()) continue;
     const NodePairs more = coupled_by_force(model, acting.couplings, acting.by_differences());
     pairs.insert(pairs.end(), more.begin(), more.end());
     if (!BlockPattern(order, pairs, most).complete()) refuse(acting, more, most);

@@ -57,6 +57,13 @@ void Automatic::look_again_later(double ratio) {
       far ? std::clamp(2 * implicit_interval_, kImplicitInterval, kLongestInterval) : kImplicitInterval;
 }
 
+bool Automatic::turns_from_implicit(const Evaluation& why) {
+  bound_ = sentence("; implicit steps are refused: ", describe(why.outcome));
+  turn_to(std::make_unique<CashKarp>(system_));
+  report_.switches.push_back({state_.time, report_.method, describe(why.outcome)});
+  return true;
+}
+
 /// What decays or rings at the cap is seen by the error estimate of explicit steps, too: the steps that they
 /// wish for are no measure of what implicit ones could do. That is found out by trying.
 bool Automatic::struggles() {

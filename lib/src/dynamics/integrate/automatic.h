@@ -15,6 +15,7 @@ class Automatic : public ChosenSteps {
 
  protected:
   void look_ahead() override;
+  bool turns_from_implicit(const Evaluation& why) override;
 
  private:
   bool explicit_fits() const { return needed() < left(); }

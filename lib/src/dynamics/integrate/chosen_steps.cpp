@@ -232,6 +232,12 @@ double ChosenSteps::least_step() const {
 
 bool ChosenSteps::reject(const Aim& aim, std::optional<double> error, const Evaluation& why) {
   ++report_.rejected;
+  if (why.outcome == Evaluation::Outcome::coupled_too_far) {
+    // No shorter step couples less.
+    if (turns_from_implicit(why)) return true;
+    stop_without_step(why);
+    return false;
+  }
   control_.reject(aim.h, error);
   // Shorter steps that are worse have begun to see a ringing that longer ones damp: those are taken, and the
   // drift judges.

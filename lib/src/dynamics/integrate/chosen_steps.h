@@ -24,6 +24,8 @@ class ChosenSteps : public Controller {
 
   /// Looks at what the next steps depend on, and may stop the run.
   virtual void look_ahead();
+  /// Where implicit steps cannot be taken at a state, of whatever length: false where there are no others.
+  virtual bool turns_from_implicit(const Evaluation&) { return false; }
   void restart_stepper() override { stepper_->restart(); }
   void begin_anew() override;
   void measure_guard();

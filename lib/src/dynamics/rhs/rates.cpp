@@ -299,7 +299,8 @@ Evaluation refusal(const Model& model, const State& state, System::Workspace& wo
 }
 
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
-                                  Eigen::VectorXd& out, System::Workspace& work) {
+                                  std::span<const Undifferentiated> forces, Eigen::VectorXd& out,
+                                  System::Workspace& work) {
   auto& [kin, grad, loads, pull] = work;
   if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, kin); !at.ok())
     return at;
@@ -308,10 +309,12 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
   Loads to = no_loads(kin, loads);
   std::size_t refused = Loads::kNone;
   to.refused = &refused;
-  for (const Model::Acting& acting : model.acting) {
-    if (!acting.by_differences()) continue;
-    state.memory = memory_of(acting, reference);
-    acting.force->add(state, to);
+  for (const Undifferentiated& force : forces) {
+    state.memory = memory_of(*force.acting, reference);
+    if (force.add)
+      force.add(state, to);
+    else
+      force.acting->force->add(state, to);
   }
   if (const Evaluation at = outcome_of(refused); !at.ok()) return at;
   add_torques(model, loads, grad);

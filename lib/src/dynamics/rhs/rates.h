@@ -22,9 +22,14 @@ Loads no_loads(const Kinematics& kin, LoadColumns& loads);
 /// Whether a force that may do so refuses a state.
 Evaluation refusal(const Model& model, const State& state, System::Workspace& work);
 
-/// Forces and spin torques, laid out like v' and w' in y', of the external forces that depend on the state
-/// and do not give their derivatives; everything else is 0.
+/// A force that gives no derivatives of its own.
+struct Undifferentiated {
+  const Model::Acting* acting;
+  std::function<void(const StateView&, const Loads&)> add;  ///< in place of Force::add, or empty
+};
+/// Forces and spin torques of these, laid out like v' and w' in y'; everything else is 0.
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
-                                  Eigen::VectorXd& out, System::Workspace& work);
+                                  std::span<const Undifferentiated> forces, Eigen::VectorXd& out,
+                                  System::Workspace& work);
 
 }  // namespace tendril

@@ -47,8 +47,10 @@ struct Movable {
 
 struct Load {
   Load(const Force& of, const StateView& at)
+      : Load([&](const StateView& state, const Loads& loads) { of.add(state, loads); }, at) {}
+  Load(const std::function<void(const StateView&, const Loads&)>& add, const StateView& at)
       : force(at.p.size(), Vec3::Zero()), torque(force), bodies(at.bodies.size()) {
-    of.add(at, {force, torque, nullptr, bodies});
+    add(at, {force, torque, nullptr, bodies});
   }
   /// What the derivatives of a flat index are of.
   const Vec3& main(std::size_t i) const {
@@ -71,17 +73,21 @@ class Check {
         step_(step),
         base_(force, at_.seen),
         couplings_(force.couplings_with_bodies(view.rods, view.bodies.size())) {
-    for (const auto& [a, b] : couplings_.pairs()) {
-      named_.emplace(a, b);
-      named_.emplace(b, a);
-      named_.emplace(a, a);
-      named_.emplace(b, b);
+    name(couplings_.pairs());
+    if (couplings_.local()) {
+      local_ = couplings_.local()(at_.seen);
+      const std::set<Couplings::Pair> ever = std::move(named_);
+      named_.clear();
+      name(local_.pairs);
+      for (const auto& pair : named_)
+        if (ever.count(pair) == 0) found_.insert(pair);
     }
     for (std::size_t r = 0; r < view.rods.size(); ++r) rod_of_.resize(rod_of_.size() + view.rods[r].count, r);
   }
 
   ForceCheck run() {
     gather();
+    compare_local(base_);
     for (std::size_t j = 0; j < at_.p.size(); ++j) {
       for (int axis = 0; axis < 3; ++axis) {
         compare(j, axis, at_.p[j], at_.length, by_p_);
@@ -89,13 +95,14 @@ class Check {
         note_frame(j, Vec3::Unit(axis));
       }
       at_.spin[j] += step_;
-      note(j, Load(force_, at_.seen));
+      note(j, look());
       at_.spin[j] -= step_;
       if (force_.has_energy()) compare_energy(j);
     }
     for (std::size_t b = 0; b < at_.bodies.size(); ++b) compare_body(b);
     if (derivative_ > 0.0) out_.derivatives = error_ / derivative_;
     if (load_ > 0.0) out_.energy = energy_error_ / load_;
+    if (most_ > 0.0) out_.local = local_error_ / most_;
     for (const auto& pair : found_) out_.undeclared.push_back(pair);
     return out_;
   }
@@ -111,6 +118,15 @@ class Check {
     }
     Matrix &by_p, &by_v;
   };
+
+  void name(const std::vector<Couplings::Pair>& pairs) {
+    for (const auto& [a, b] : pairs) {
+      named_.emplace(a, b);
+      named_.emplace(b, a);
+      named_.emplace(a, a);
+      named_.emplace(b, b);
+    }
+  }
 
   void gather() {
     const auto size = 3 * static_cast<Eigen::Index>(at_.indices());
@@ -144,6 +160,28 @@ class Check {
       if (!named(i, j) && moved.differs(i, base_)) found_.emplace(i, j);
   }
 
+  /// The loads as the state is moved.
+  Load look() {
+    Load whole(force_, at_.seen);
+    compare_local(whole);
+    return whole;
+  }
+
+  /// Holds what it says of states beside this one against its loads there.
+  void compare_local(const Load& whole) {
+    if (!local_.add) return;
+    const Load said(local_.add, at_.seen);
+    for (std::size_t i = 0; i < at_.indices(); ++i) {
+      const double arm = arm_of(static_cast<Eigen::Index>(i));
+      local_error_ = std::max(local_error_, (said.main(i) - whole.main(i)).norm() / arm);
+      most_ = std::max(most_, whole.main(i).norm() / arm);
+      if (i < whole.torque.size()) {
+        local_error_ = std::max(local_error_, (said.torque[i] - whole.torque[i]).norm() / at_.length);
+        most_ = std::max(most_, whole.torque[i].norm() / at_.length);
+      }
+    }
+  }
+
   void compare(std::size_t j, int axis, Vec3& moved, double scale, const Matrix& exact) {
     const double at = moved[axis];
     compare(j, axis, scale, exact, [&](double h) { moved[axis] = at + h; });
@@ -154,9 +192,9 @@ class Check {
   void compare(std::size_t j, int axis, double scale, const Matrix& exact, const Move& move) {
     const double h = step_ * scale;
     move(h);
-    const Load up(force_, at_.seen);
+    const Load up = look();
     move(-h);
-    const Load down(force_, at_.seen);
+    const Load down = look();
     move(0.0);
     note(j, up);
     note(j, down);
@@ -221,7 +259,7 @@ class Check {
   }
 
   void note_frame(std::size_t j, const Vec3& axis) {
-    turned(j, axis, step_, [&] { note(j, Load(force_, at_.seen)); });
+    turned(j, axis, step_, [&] { note(j, look()); });
   }
 
   void compare_energy(std::size_t j) {
@@ -248,10 +286,12 @@ class Check {
   double step_;
   Load base_;
   Couplings couplings_;
+  LocalCouplings local_;
   std::set<Couplings::Pair> named_, found_;
   std::vector<std::size_t> rod_of_;
   Matrix by_p_, by_v_;
   double derivative_ = 0.0, error_ = 0.0, load_ = 0.0, energy_error_ = 0.0;
+  double local_error_ = 0.0, most_ = 0.0;
   ForceCheck out_;
 };
 

@@ -30,4 +30,9 @@ Couplings Couplings::with(Derivatives derivatives) && {
   return std::move(*this);
 }
 
+Couplings Couplings::at_states(Local local) && {
+  local_ = std::move(local);
+  return std::move(*this);
+}
+
 }  // namespace tendril

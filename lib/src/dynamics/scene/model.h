@@ -137,6 +137,7 @@ struct System::Model {
     Couplings couplings;
 
     bool by_differences() const { return couplings.any() && !couplings.derivatives(); }
+    bool varies() const { return static_cast<bool>(couplings.local()); }
   };
   std::vector<Acting> acting;
   bool loaded = false;  ///< there are such

@@ -18,6 +18,8 @@ const char* describe(Evaluation::Outcome outcome) {
       return "the equations of the implicit step were not solved: a shorter step may";
     case Evaluation::Outcome::refused:
       return "a force refuses the state";
+    case Evaluation::Outcome::coupled_too_far:
+      return "forces couple more nodes than elimination takes: explicit steps need none";
   }
   return "";
 }

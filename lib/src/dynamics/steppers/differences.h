@@ -8,23 +8,29 @@
 
 namespace tendril {
 
+/// Per node, those that share a row with it, itself first: all that a pattern has.
+inline std::vector<std::vector<std::size_t>> neighbours_in(const BlockPattern& pattern) {
+  std::vector<std::vector<std::size_t>> all(pattern.size());
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    all[pattern.node(k)].push_back(pattern.node(k));
+    for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
+      all[pattern.node(k)].push_back(pattern.node(pattern.later(e)));
+      all[pattern.node(pattern.later(e))].push_back(pattern.node(k));
+    }
+  }
+  return all;
+}
+
 /// Derivatives of the external forces that do not give their own, by differences: groups of columns, a kind
 /// of coordinate (an axis of p, an axis of v, the angle theta, the spin w) at the nodes of one colour, are
 /// moved together, and with them an axis of the places, turns and motions of bodies. Nodes of one colour
-/// share no row of the pattern.
+/// share no row.
 template <int B>
 class Differences {
  public:
-  Differences(const Model& model, const BlockPattern& pattern)
-      : model_(model), kinds_(model.twist_nodes > 0 ? 8 : 6) {
-    neighbours_.resize(pattern.size());
-    for (std::size_t k = 0; k < pattern.size(); ++k) {
-      neighbours_[pattern.node(k)].push_back(pattern.node(k));
-      for (std::size_t e = pattern.begin(k); e < pattern.begin(k + 1); ++e) {
-        neighbours_[pattern.node(k)].push_back(pattern.node(pattern.later(e)));
-        neighbours_[pattern.node(pattern.later(e))].push_back(pattern.node(k));
-      }
-    }
+  /// \param neighbours  per node, those whose loads it moves, itself first; empty where it moves none
+  Differences(const Model& model, std::vector<std::vector<std::size_t>> neighbours)
+      : model_(model), kinds_(model.twist_nodes > 0 ? 8 : 6), neighbours_(std::move(neighbours)) {
     colour();
     for (std::size_t i = 0; i < model.nodes; ++i) length_ = std::max(length_, model.rest_length[i]);
     if (model.nodes == 0)
@@ -32,9 +38,13 @@ class Differences {
   }
 
   /// Adds to the two matrices.
-  Evaluation add(const State& state, System::Workspace& work, BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
+  Evaluation add(const State& state, std::span<const Undifferentiated> forces, System::Workspace& work,
+                 BlockMatrix<B>& by_x, BlockMatrix<B>& by_u) {
+    const auto loads = [&](const Eigen::VectorXd& y, Eigen::VectorXd& out) {
+      return undifferentiated_loads(model_, state, y, forces, out, work);
+    };
     cost_ = 1;
-    if (const Evaluation e = undifferentiated_loads(model_, state, state.y, base_, work); !e.ok()) return e;
+    if (const Evaluation e = loads(state.y, base_); !e.ok()) return e;
     double speed = length_;
     for (std::size_t i = 0; i < model_.index_count(); ++i)
       if (!is_turn(i))
@@ -54,7 +64,7 @@ class Differences {
         }
         if (!any) continue;
         ++cost_;
-        if (const Evaluation e = undifferentiated_loads(model_, state, moved_, dy_, work); !e.ok()) return e;
+        if (const Evaluation e = loads(moved_, dy_); !e.ok()) return e;
         dy_ -= base_;
         for (const std::size_t i : nodes)
           if (offset_of(i, kind) >= 0)
@@ -71,6 +81,7 @@ class Differences {
     std::vector<std::size_t> colours(model_.index_count(), kNone);
     std::vector<std::size_t> taken_by;
     for (std::size_t i = 0; i < model_.index_count(); ++i) {
+      if (neighbours_[i].empty()) continue;
       taken_by.resize(std::max(taken_by.size(), coloured_.size()), kNone);
       for (const std::size_t j : neighbours_[i])
         for (const std::size_t k : neighbours_[j])

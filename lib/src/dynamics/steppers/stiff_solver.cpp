@@ -19,6 +19,7 @@
 #include "dynamics/stiffness/stiffness_elements.h"
 #include "dynamics/stiffness/turning.h"
 #include "dynamics/stiffness/viscous_turning.h"
+#include "local_forces.h"
 #include "pivot_layout.h"
 
 namespace tendril {
@@ -30,10 +31,11 @@ bool depends_on_state(const Model& model) {
   return false;
 }
 
-bool needs_differences(const Model& model) {
+std::vector<Undifferentiated> without_derivatives(const Model& model) {
+  std::vector<Undifferentiated> all;
   for (const Model::Acting& acting : model.acting)
-    if (acting.by_differences()) return true;
-  return false;
+    if (acting.by_differences() && !acting.varies()) all.push_back({&acting, {}});
+  return all;
 }
 
 bool depends_on_time(const Model& model) {
@@ -86,14 +88,16 @@ class OwnDerivatives : public LoadDerivatives {
 template <int B>
 class BlockSolver : public StiffSolver {
  public:
-  BlockSolver(const System& system, System::Workspace& work)
+  BlockSolver(const System& system, System::Workspace& work, const LocalForces* local)
       : system_(system),
         model_(model_of(system)),
         work_(work),
+        local_(local),
+        undifferentiated_(without_derivatives(model_)),
         loaded_(depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_ || !model_.bodies.empty()),
         timed_(depends_on_time(model_)),
-        pattern_(pattern_of_equations(model_)),
+        pattern_(pattern_of_equations(model_, local ? local->pairs : NodePairs{})),
         by_x_(pattern_, !rates_matter_),
         to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),
@@ -105,7 +109,9 @@ class BlockSolver : public StiffSolver {
       to_u_.emplace(*by_u_);
     }
     if (resists(model_)) turning_.emplace(model_);
-    if (needs_differences(model_)) differences_.emplace(model_, pattern_);
+    if (!undifferentiated_.empty())
+      differences_.emplace(model_, neighbours_in(local ? pattern_of_equations(model_) : pattern_));
+    if (local && !local->neighbours.empty()) local_differences_.emplace(model_, local->neighbours);
     lay_out();
     if (!loaded_) bodies_.emplace(model_, pattern_.nodes());  // loads that depend on the state do not cancel
   }
@@ -132,8 +138,12 @@ class BlockSolver : public StiffSolver {
       }
     }
     if (differences_) {
-      if (fails(differences_->add(state, work_, by_x_, *by_u_))) return -1;
+      if (fails(differences_->add(state, undifferentiated_, work_, by_x_, *by_u_))) return -1;
       evaluations += differences_->cost();
+    }
+    if (local_differences_ && !local_->undifferentiated.empty()) {
+      if (fails(local_differences_->add(state, local_->undifferentiated, work_, by_x_, *by_u_))) return -1;
+      evaluations += local_differences_->cost();
     }
     for (const Held& held : held_) {
       by_x_.release(held.node, held.coordinate);
@@ -332,6 +342,8 @@ class BlockSolver : public StiffSolver {
   const System& system_;
   const Model& model_;
   System::Workspace& work_;
+  const LocalForces* local_;  ///< or null
+  std::vector<Undifferentiated> undifferentiated_;
   bool loaded_, rates_matter_, timed_;
   BlockPattern pattern_;
   BlockMatrix<B> by_x_;
@@ -339,7 +351,7 @@ class BlockSolver : public StiffSolver {
   BlockMatrix<B> matrix_;
   std::optional<BlockMatrix<B>> by_u_;
   std::optional<BlockRoute<B>> to_u_;
-  std::optional<Differences<B>> differences_;
+  std::optional<Differences<B>> differences_, local_differences_;
   std::vector<Connection> connections_;
   std::vector<BlockProduct> links_;  ///< of the connections, which keep their addresses
   std::vector<Own> own_links_;
@@ -354,9 +366,10 @@ class BlockSolver : public StiffSolver {
 
 }  // namespace
 
-std::unique_ptr<StiffSolver> make_stiff_solver(const System& system, System::Workspace& work) {
-  if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work);
-  return std::make_unique<BlockSolver<3>>(system, work);
+std::unique_ptr<StiffSolver> make_block_solver(const System& system, System::Workspace& work,
+                                               const LocalForces* local) {
+  if (system.twist_count() > 0) return std::make_unique<BlockSolver<4>>(system, work, local);
+  return std::make_unique<BlockSolver<3>>(system, work, local);
 }
 
 }  // namespace tendril
