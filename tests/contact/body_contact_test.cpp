@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "shown.h"
 #include "support/rods.h"
 
 namespace tendril::contact {
@@ -76,6 +77,29 @@ TEST(BodyContact, ABallBouncesForEverAtTheSameHeight) {
   EXPECT_GT(lowest, 0.1);
   EXPECT_NEAR(report.last.total(), report.first.total(),
               1e-7 * std::abs(report.first.kinetic + 2.0 * kGravity * 0.5));
+}
+
+/// Balls that touch each other or the floor couple, at a state, with what they touch and nothing else.
+TEST(BodyContact, SaysWhatActsAtAState) {
+  test::Random random(3);
+  Bodies bodies(0.0);
+  const double reach = 0.2 + 0.4e-3;
+  for (const Vec3& at :
+       {Vec3(0, 0, 0.1 + 0.4e-3), Vec3(reach, 0, 0.5), Vec3(2 * reach, 0, 0.5), Vec3(5, 0, 0.5)})
+    bodies.add_ball(0.1, 1.0, at);
+  const BodyContact contact(bodies.colliders,
+                            {.stiffness = 1e5, .range = 1e-3, .friction = 0.3, .damping = 0.1});
+  test::Shown s = test::shown(random, {Vec3(9, 9, 9), Vec3(9, 9, 9.1)}, 0.1);
+  for (const Body& body : bodies.scene.bodies)
+    s.bodies.push_back({body.position, Mat3::Identity(), random.in_cube(0.1), random.in_cube(0.5), 1.0});
+  s.memory = contact.remember(s.view(), nullptr);
+  for (BodyView& body : s.bodies) body.position += random.in_cube(5e-5);
+  s.memory = contact.remember(s.view(), s.memory);
+  const ForceCheck check = check_force(contact, s.view(), 1e-7);
+  EXPECT_TRUE(check.undeclared.empty());
+  const LocalCouplings local = contact.couplings_with_bodies(s.rods, 4).local()(s.view());
+  const std::vector<Couplings::Pair> expected{{2, 3}, {4, 5}, {4, 6}, {4, 7}, {5, 6}, {5, 7}, {6, 7}};
+  EXPECT_EQ(local.pairs, expected);
 }
 
 /// A ball that slides begins to roll: at 5/7 of its speed, after 2 v / (7 mu g).

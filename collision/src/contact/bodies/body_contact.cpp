@@ -19,6 +19,32 @@ std::size_t index_of(const BodyModel& model, const StateView& state, const Nearn
   return state.p.size() + 2 * *model.colliders[model.points[closed.point].collider].body;
 }
 
+/// The places and turns of bodies that meet each other, or what is not free, in pairs.
+class CoupledBodies {
+ public:
+  CoupledBodies(const BodyModel& model, std::size_t nodes) : model_(model), nodes_(nodes) {}
+  void add(std::size_t own, std::size_t collider) {
+    const std::size_t first = nodes_ + 2 * *model_.colliders[own].body;
+    pairs_.emplace_back(first, first + 1);
+    if (!model_.colliders[collider].body) return;
+    const std::size_t second = nodes_ + 2 * *model_.colliders[collider].body;
+    pairs_.emplace_back(second, second + 1);
+    for (const std::size_t a : {first, first + 1})
+      for (const std::size_t b : {second, second + 1}) pairs_.emplace_back(a, b);
+  }
+  /// Each once.
+  std::vector<Couplings::Pair> take() {
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    return std::move(pairs_);
+  }
+
+ private:
+  const BodyModel& model_;
+  std::size_t nodes_;
+  std::vector<Couplings::Pair> pairs_;
+};
+
 [[noreturn]] void refuse(const BodyModel& model, const Nearness& closed) {
   const std::size_t first = model.points[closed.point].collider;
   refuse_closed(model.law,
@@ -47,19 +73,16 @@ void BodyContact::add(const StateView& state, const Loads& loads) const {
 
 Couplings BodyContact::couplings(std::span<const NodeRange> rods) const {
   const std::size_t nodes = rods.empty() ? 0 : rods.back().first + rods.back().count;
-  std::vector<Couplings::Pair> all;
-  for (const auto& [point, collider] : model_->pairs) {
-    const std::size_t first = nodes + 2 * *model_->colliders[model_->points[point].collider].body;
-    all.emplace_back(first, first + 1);
-    if (!model_->colliders[collider].body) continue;
-    const std::size_t second = nodes + 2 * *model_->colliders[collider].body;
-    all.emplace_back(second, second + 1);
-    for (const std::size_t a : {first, first + 1})
-      for (const std::size_t b : {second, second + 1}) all.emplace_back(a, b);
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return Couplings::between(std::move(all));
+  CoupledBodies ever(*model_, nodes);
+  for (const BodyPair& pair : model_->pairs) ever.add(pair.first, pair.second);
+  return Couplings::between(ever.take()).at_states([model = model_.get()](const StateView& state) {
+    CoupledBodies here(*model, state.p.size());
+    model->each_touch(model->colliders.place(state), ledger_of(state.memory),
+                      [&](const BodyContactPoint& at) {
+                        here.add(model->points[at.near.point].collider, at.near.collider);
+                      });
+    return LocalCouplings{here.take(), {}};
+  });
 }
 
 Couplings BodyContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {

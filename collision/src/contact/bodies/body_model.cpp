@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 
 namespace tendril::contact {
 
 BodyModel::BodyModel(std::vector<Collider> with, const Law& how)
     : law(checked(how)), colliders(std::move(with), 0.0) {
+  reach.resize(colliders.size(), 0.0);
   for (std::size_t i = 0; i < colliders.size(); ++i)
     if (colliders[i].body) add_points(i);
   if (points.empty()) throw InvalidInput("contact.colliders", "no free body among them", "at least one");
-  for (std::size_t i = 0; i < points.size(); ++i) add_pairs(i);
+  for (std::size_t i = 0; i < colliders.size(); ++i)
+    if (colliders[i].body) add_pairs(i);
 }
 
 void BodyModel::add_points(std::size_t collider) {
@@ -21,21 +25,26 @@ void BodyModel::add_points(std::size_t collider) {
   if (all.empty())
     throw InvalidInput("contact.colliders[" + std::to_string(collider) + "].shape", "no points to be met at",
                        "a shape that a free body can have");
-  for (const ShapePoint& at : all)
+  for (const ShapePoint& at : all) {
     points.push_back({collider, at, at.radius > 0.0 ? 2.0 * at.radius : law.range});
+    reach[collider] = std::max(reach[collider], at.centre.norm() + at.radius);
+  }
 }
 
 /// A round body meets everything; of two round ones the points of the first meet the second. What has edges
 /// meets half spaces: nothing else bends outward by an infinite radius.
-void BodyModel::add_pairs(std::size_t point) {
-  const std::size_t own = points[point].collider;
+void BodyModel::add_pairs(std::size_t own) {
+  const auto of_own = [&](const BodyPoint& point) { return point.collider == own; };
+  const auto from = std::find_if(points.begin(), points.end(), of_own);
+  const auto begin = static_cast<std::size_t>(from - points.begin());
+  const auto end = begin + static_cast<std::size_t>(std::count_if(from, points.end(), of_own));
   const bool round = colliders[own].shape->round();
   for (std::size_t c = 0; c < colliders.size(); ++c) {
     if (c == own || (colliders[c].body && colliders[c].body == colliders[own].body)) continue;
     const bool other_round = colliders[c].body && colliders[c].shape->round();
     const bool flat = colliders[c].shape->outward_radius() == std::numeric_limits<double>::infinity();
     if (round ? !(other_round && c < own) : flat) {
-      pairs.emplace_back(point, c);
+      pairs.push_back({own, c, begin, end});
     } else if (!round && !other_round) {
       throw InvalidInput("contact.colliders[" + std::to_string(own) + "].shape",
                          "a body with edges could meet collider " + std::to_string(c) +
@@ -43,6 +52,34 @@ void BodyModel::add_pairs(std::size_t point) {
                          "a ball or a capsule");
     }
   }
+}
+
+std::vector<Moved> BodyModel::moved_since(const BodyLedger& kept,
+                                          const std::vector<Placement>& placed) const {
+  std::vector<Moved> moved;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Placement &now = placed[i], &before = kept.placed[i];
+    moved.push_back({(now.position - before.position).norm(),
+                     (now.rotation - before.rotation).norm() / std::numbers::sqrt2});
+  }
+  return moved;
+}
+
+/// By the balls about both, or where the second has none, as a half space, by how far the first's centre is
+/// from it. In the frame of the second a point moves by what both do, and no farther.
+bool BodyModel::far(const BodyPair& pair, const std::vector<Placement>& placed,
+                    const std::vector<Moved>& moved) const {
+  const Placement &first = placed[pair.first], &second = placed[pair.second];
+  const Shape& shape = *colliders[pair.second].shape;
+  const double apart = (first.position - second.position).norm(), around = shape.extent();
+  const double least = around < std::numeric_limits<double>::infinity()
+                           ? apart - around
+                           : shape.distance(second.to_local(first.position));
+  double way = 0.0;
+  if (!moved.empty())
+    way = moved[pair.first].way + reach[pair.first] * moved[pair.first].turn + moved[pair.second].way +
+          (apart + reach[pair.first]) * moved[pair.second].turn;
+  return least - reach[pair.first] > (law.range + way) * (1.0 + 1e-9);
 }
 
 Nearness BodyModel::nearness(std::size_t point, std::size_t collider,

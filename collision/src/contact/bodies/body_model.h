@@ -40,13 +40,26 @@ struct BodyContactPoint {
   Vec3 apart;  ///< what the surfaces have come apart by, that friction pulls with
 };
 
+/// A free body and what it may meet: points [begin, end) of the first, with the second.
+struct BodyPair {
+  std::size_t first, second;  ///< colliders
+  std::size_t begin, end;     ///< of the points
+};
+
+/// How far a solid moved since the last accepted state: its origin, and what it turned by as |R - R'|, the
+/// farthest that a point at 1 of the origin was carried.
+struct Moved {
+  double way, turn;
+};
+
 struct BodyModel {
   BodyModel(std::vector<Collider> colliders, const Law& law);
 
   Law law;
   Solids colliders;
   std::vector<BodyPoint> points;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< of points and colliders that they may meet
+  std::vector<double> reach;    ///< per collider: of its points, balls included, from its origin; 0 without
+  std::vector<BodyPair> pairs;  ///< that may meet
 
   bool barrier() const { return law.kind == Law::Kind::barrier; }
   /// How a point is to a collider.
@@ -59,17 +72,25 @@ struct BodyModel {
   template <class Visit>
   std::optional<Nearness> each_touch(const std::vector<Placement>& placed, const BodyLedger* kept,
                                      Visit&& visit) const {
-    for (const auto& [point, collider] : pairs) {
-      const Nearness near = nearness(point, collider, placed);
-      if (barrier() && (!(near.gap > 0.0) || (kept && !reachable(*kept, near)))) return near;
-      if (near.gap < law.range) visit(touch(placed, kept, near));
+    const std::vector<Moved> moved = barrier() && kept ? moved_since(*kept, placed) : std::vector<Moved>{};
+    for (const BodyPair& pair : pairs) {
+      if (far(pair, placed, moved)) continue;
+      for (std::size_t point = pair.begin; point < pair.end; ++point) {
+        const Nearness near = nearness(point, pair.second, placed);
+        if (barrier() && (!(near.gap > 0.0) || (kept && !reachable(*kept, near)))) return near;
+        if (near.gap < law.range) visit(touch(placed, kept, near));
+      }
     }
     return {};
   }
 
  private:
   void add_points(std::size_t collider);
-  void add_pairs(std::size_t point);
+  void add_pairs(std::size_t collider);
+  std::vector<Moved> moved_since(const BodyLedger& kept, const std::vector<Placement>& placed) const;
+  /// Whether no point of the pair is in range, or has met anything on its way since then.
+  /// \param moved  empty where it does not matter
+  bool far(const BodyPair& pair, const std::vector<Placement>& placed, const std::vector<Moved>& moved) const;
   Vec3 slid_since(const BodyLedger& kept, const std::vector<Placement>& placed, const Nearness& near,
                   const Vec3& surface) const;
 };

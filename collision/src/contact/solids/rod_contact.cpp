@@ -9,6 +9,26 @@
 #include "touch.h"
 
 namespace tendril::contact {
+namespace {
+
+/// The nodes of edges that touch something, and what they touch where it is free.
+LocalCouplings acting_at(const RodModel& model, const StateView& state) {
+  LocalCouplings result;
+  std::pair<std::size_t, std::size_t> last{~std::size_t{0}, 0};
+  each_touch(model, state, model.colliders.place(state), [&](const Touch& at) {
+    // Points follow each other along an edge.
+    const std::pair here(at.node, at.near.collider);
+    if (std::exchange(last, here) == here) return;
+    std::vector<std::size_t> nodes{at.node, at.node + 1};
+    if (const auto& body = model.colliders[at.near.collider].body)
+      for (const std::size_t turn : {0, 1}) nodes.push_back(state.p.size() + 2 * *body + turn);
+    const Couplings all = Couplings::among(nodes);
+    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+  });
+  return result;
+}
+
+}  // namespace
 
 RodContact::RodContact(std::vector<ContactRod> rods, std::vector<Collider> colliders, const Law& law)
     : model_(std::make_unique<const RodModel>(std::move(rods), std::move(colliders), law)) {}
@@ -42,7 +62,9 @@ Couplings RodContact::couplings(std::span<const NodeRange> rods) const {
     }
   for (const std::size_t body : model_->colliders.bodies)
     pairs.emplace_back(nodes + 2 * body, nodes + 2 * body + 1);
-  return Couplings::between(std::move(pairs)).with(std::move(derivatives));
+  return Couplings::between(std::move(pairs))
+      .at_states([model = model_.get()](const StateView& state) { return acting_at(*model, state); })
+      .with(std::move(derivatives));
 }
 
 Couplings RodContact::couplings_with_bodies(std::span<const NodeRange> rods, std::size_t bodies) const {
