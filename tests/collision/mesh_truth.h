@@ -2,7 +2,9 @@
 
 #include <tendril/collision/hierarchy_options.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "collision/minkowski.h"
 #include "support/random.h"
@@ -34,9 +36,10 @@ inline int volume_sign(const Vec3& a, bool a_is_vector, const Vec3& b, const Vec
 class MeshTruth {
  public:
   MeshTruth(std::vector<Vec3> points, std::vector<collision::Triangle> triangles)
-      : points_(std::move(points)), triangles_(std::move(triangles)) {}
+      : points_(std::move(points)), triangles_(std::move(triangles)), oriented_(as_many_either_way()) {}
 
-  /// With what a closed mesh encloses, by parity: hit within, touching on it.
+  /// With what a closed mesh goes round, or where its triangles are not turned alike encloses by parity: hit
+  /// within, touching on it.
   collision::Relation inside(const Vec3& x) const {
     const std::array<Vec3, 1> point{x};
     for (const auto& t : triangles_) {
@@ -44,10 +47,15 @@ class MeshTruth {
       if (square_to_box(c, x) == 0.0 && minkowski_relation(point, c) != collision::Relation::free)
         return collision::Relation::touching;
     }
-    Random random(1);
-    while (true)
-      if (const auto crossed = crossings(x, random.in_cube()))
-        return *crossed % 2 != 0 ? collision::Relation::hit : collision::Relation::free;
+    const Crossed crossed = crossings(x);
+    return (oriented_ ? crossed.winding != 0 : crossed.all % 2 != 0) ? collision::Relation::hit
+                                                                     : collision::Relation::free;
+  }
+  /// Whether a point that is on no triangle is gone round an even number of times, but not 0: libraries
+  /// that count crossings call it outside.
+  bool is_gone_round_evenly(const Vec3& x) const {
+    const Crossed crossed = crossings(x);
+    return crossed.winding != 0 && crossed.all % 2 == 0;
   }
 
   /// With the surface of the mesh.
@@ -78,9 +86,28 @@ class MeshTruth {
     return (low - x).cwiseMax(x - high).cwiseMax(0.0).squaredNorm();
   }
 
+  /// Every edge is there as often one way round as the other.
+  bool as_many_either_way() const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const auto& t : triangles_)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        edges[std::minmax(a, b)] += a < b ? 1 : -1;
+      }
+    return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
+  }
+
+  struct Crossed {
+    int all = 0, winding = 0;
+  };
+  Crossed crossings(const Vec3& x) const {
+    Random random(1);
+    while (true)
+      if (const auto crossed = crossings(x, random.in_cube())) return *crossed;
+  }
   /// Triangles that the ray from x along a direction crosses; nothing where it meets an edge. x is on none.
-  std::optional<int> crossings(const Vec3& x, const Vec3& along) const {
-    int crossed = 0;
+  std::optional<Crossed> crossings(const Vec3& x, const Vec3& along) const {
+    Crossed crossed;
     for (const auto& t : triangles_) {
       const std::array<Vec3, 3> c = corners(t);
       const int s[3] = {volume_sign(along, true, c[0], c[1], x), volume_sign(along, true, c[1], c[2], x),
@@ -88,13 +115,16 @@ class MeshTruth {
       const bool up = s[0] >= 0 && s[1] >= 0 && s[2] >= 0, down = s[0] <= 0 && s[1] <= 0 && s[2] <= 0;
       if (!up && !down) continue;
       if (s[0] == 0 || s[1] == 0 || s[2] == 0) return {};
-      crossed += volume_sign(c[0], false, c[1], c[2], x) == s[0];
+      if (volume_sign(c[0], false, c[1], c[2], x) != s[0]) continue;
+      ++crossed.all;
+      crossed.winding += s[0];
     }
     return crossed;
   }
 
   std::vector<Vec3> points_;
   std::vector<collision::Triangle> triangles_;
+  bool oriented_;
 };
 
 }  // namespace tendril::test

@@ -85,6 +85,37 @@ TEST(Surface, InsideIsWhereTheSolidAnglesSumUp) {
   EXPECT_GT(within, 500);
 }
 
+/// Two cubes that overlap are one solid, a cube turned inward in another is a cavity, and one turned
+/// outward is not; of a cube with a triangle turned, parity tells.
+TEST(Surface, IsGoneRoundHoweverOften) {
+  const auto both = [](double size, const Vec3& at, bool turned) {
+    Mesh all = cube(1), other = cube(1);
+    const auto first = static_cast<std::uint32_t>(all.points.size());
+    for (const Vec3& p : other.points) all.points.push_back(at + size * p);
+    for (std::size_t i = 0; i < other.corners.size(); i += 3)
+      for (const std::size_t k : {0, 1, 2})
+        all.corners.push_back(first + other.corners[i + (turned ? 2 - k : k)]);
+    return all.surface();
+  };
+  const Surface overlap = both(1.0, {1, 0.25, 0.125}, false), cavity = both(0.5, Vec3::Zero(), true),
+                filled = both(0.5, Vec3::Zero(), false);
+  EXPECT_EQ(overlap.closure(), Closure::oriented);
+  EXPECT_EQ(where(overlap, {0.5, 0.5, 0.5}), collision::kHit);
+  EXPECT_EQ(overlap.inside({0.5, 0.5, 0.5}).winding, 2.0);
+  EXPECT_EQ(where(overlap, {1.5, 0.5, 0.5}), collision::kHit);
+  EXPECT_EQ(where(overlap, {2.5, 0.5, 0.5}), collision::kFree);
+  EXPECT_EQ(where(cavity, {0.1, 0.2, 0.3}), collision::kFree);
+  EXPECT_EQ(where(cavity, {0.1, 0.2, 0.7}), collision::kHit);
+  EXPECT_EQ(where(filled, {0.1, 0.2, 0.3}), collision::kHit);
+  EXPECT_EQ(overlap.solid_relation({0.5, 0.5, 0.5}, 0.1), collision::kHit);
+  Mesh turned = cube(1);
+  std::swap(turned.corners[0], turned.corners[1]);
+  const Surface even = turned.surface();
+  EXPECT_EQ(even.closure(), Closure::even);
+  EXPECT_EQ(where(even, {0.1, 0.2, 0.3}), collision::kHit);
+  EXPECT_EQ(where(even, {0.1, 0.2, 1.3}), collision::kFree);
+}
+
 TEST(Surface, OfAnOpenMeshThePointsOnItAreKnown) {
   const Mesh mesh = cube(1);
   const Surface open(mesh.points, std::span(mesh.corners).subspan(6));

@@ -28,7 +28,7 @@ class TENDRIL_EXACT_API BoundSurface {
   /// The number of triangles.
   std::size_t size() const { return hierarchy_.size(); }
   /// In every pose: every edge belongs to an even number of triangles, where points bound alike are one.
-  bool closed() const { return closed_; }
+  bool closed() const { return closure_ != Closure::open; }
 
   /// As Surface::relation.
   Answer relation(const Shape& shape);
@@ -47,7 +47,7 @@ class TENDRIL_EXACT_API BoundSurface {
   double winding_about(const Vec3& point);
 
   collision::AxialHierarchy hierarchy_;
-  bool closed_;
+  Closure closure_;
 };
 
 }  // namespace tendril::exact

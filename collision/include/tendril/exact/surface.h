@@ -19,6 +19,10 @@ struct Meeting {
   friend auto operator<=>(const Meeting&, const Meeting&) = default;
 };
 
+/// What encloses: nothing; a surface each of whose edges belongs to an even number of triangles; one of whose
+/// edges as many triangles go one way round as the other.
+enum class Closure : unsigned char { open, even, oriented };
+
 /// Where a point lies to what a surface encloses.
 struct Inside {
   /// hit within, touching on the surface, free outside; undecidable: open, or not finite.
@@ -58,8 +62,11 @@ class TENDRIL_EXACT_API Surface {
   const collision::BoxTree& tree() const { return tree_; }
 
   /// Every edge belongs to an even number of triangles, where points that coincide are one: then each point
-  /// not on the surface is inside or outside, by the parity of crossings.
-  bool closed() const { return closed_; }
+  /// not on the surface is inside or outside.
+  bool closed() const { return closure_ != Closure::open; }
+  /// And how: what an oriented surface goes round, however often, is inside, so that parts that overlap are
+  /// one solid and a shell turned inward is a cavity; else the parity of crossings counts.
+  Closure closure() const { return closure_; }
 
   /// With the surface itself, not with its inside.
   Answer relation(const Shape& shape) const;
@@ -68,8 +75,8 @@ class TENDRIL_EXACT_API Surface {
   /// All pairs that meet, in order. For a surface and itself, neighbours touch.
   std::vector<Meeting> meetings(const Surface& other) const;
 
-  /// By the parity of crossings of a vertical ray, moved aside by less than any number where it meets an edge
-  /// [Edelsbrunner and Muecke 1990]; exact. Open surfaces: O(n).
+  /// By the crossings of a vertical ray (closure()), moved aside by less than any number where it meets an
+  /// edge [Edelsbrunner and Muecke 1990]; exact. Open surfaces: O(n).
   Inside inside(const Vec3& point) const;
 
   /// A ball, or a point for radius 0, with the surface and all that it encloses: undecidable(open) where the
@@ -82,11 +89,13 @@ class TENDRIL_EXACT_API Surface {
  private:
   std::vector<collision::Box> boxes(Points points) const;
   double winding_about(const Vec3& point) const;
+  void find_closure();
 
   std::vector<Vec3> points_;
   std::vector<std::uint32_t> corners_;
   collision::BoxTree tree_;
-  bool ordinary_ = true, closed_by_index_ = false, closed_ = false;
+  bool ordinary_ = true;
+  Closure closure_by_index_ = Closure::open, closure_ = Closure::open;
 };
 
 }  // namespace tendril::exact

@@ -64,10 +64,12 @@ std::vector<std::uint32_t> with_alike_as_one(const BoundPoints& points,
 
 /// Asked of the binding once, not of positions in each pose: what points bound alike sew up stays so, and
 /// what only happens to coincide in a pose does not count.
-bool closed(const BoundPoints& points, std::span<const collision::Triangle> triangles) {
+Closure closure(const BoundPoints& points, std::span<const collision::Triangle> triangles) {
   std::vector<std::uint32_t> corners;
   for (const collision::Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-  return edges_are_even(corners) || edges_are_even(with_alike_as_one(points, corners));
+  const Closure by_index = closure_of(corners);
+  if (by_index == Closure::oriented) return by_index;
+  return std::max(by_index, closure_of(with_alike_as_one(points, corners)));
 }
 
 Shape shape_of(const PlacedTriangle& t) {
@@ -80,7 +82,7 @@ BoundSurface::BoundSurface(std::span<const CurvePair> rest, const BoundPoints& p
                            std::span<const collision::Triangle> triangles,
                            const collision::HierarchyOptions& options)
     : hierarchy_((check(rest), rest), points, triangles, options),
-      closed_(exact::closed(points, triangles)) {}
+      closure_(exact::closure(points, triangles)) {}
 
 void BoundSurface::pose(std::span<const CurvePair> posed) {
   check(posed);
@@ -135,7 +137,7 @@ Inside BoundSurface::inside(const Vec3& point) {
   const Shape query = exact::point(point);
   if (range_of(query) == Range::not_finite) return {undecidable(Reason::not_finite)};
   bool touching = false;
-  int crossed = 0, winding = 0;
+  Crossings crossed;
   hierarchy_.descend([&](const Box& b) { return !touching && above_or_in(b, point); },
                      [&](const PlacedTriangle& t) {
                        touching = t.box.holds(point) &&
@@ -144,13 +146,12 @@ Inside BoundSurface::inside(const Vec3& point) {
                        // Triangles are known one by one, so the range of numbers is, too: an extreme one
                        // elsewhere makes no other test slow.
                        const Predicates signs(std::max(range_of(query), range_of(shape_of(t))));
-                       const int crossing = crossing_above(signs, t.corners, point);
-                       crossed += crossing != 0;
-                       winding += crossing;
+                       crossed.add(crossing_above(signs, t.corners, point));
                      });
   if (touching) return {collision::kTouching};
-  if (!closed_) return {undecidable(Reason::open), winding_about(point)};
-  return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
+  if (!closed()) return {undecidable(Reason::open), winding_about(point)};
+  return {crossed.inside(closure_) ? collision::kHit : collision::kFree,
+          static_cast<double>(crossed.winding)};
 }
 
 /// Every triangle has its solid angle, so nothing can be left out.

@@ -19,17 +19,29 @@ int turn_of_moved(const Predicates& signs, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-bool edges_are_even(std::span<const std::uint32_t> corners) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+Closure closure_of(std::span<const std::uint32_t> corners) {
+  struct Edge {
+    std::uint32_t low, high;
+    int way;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(corners[i + k], corners[i + (k + 1) % 3]);
-      if (a != b) edges.emplace_back(a, b);
+      const std::uint32_t a = corners[i + k], b = corners[i + (k + 1) % 3];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
     }
   std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size(); i += 2)
-    if (i + 1 == edges.size() || edges[i] != edges[i + 1]) return false;
-  return true;
+  Closure closure = Closure::oriented;
+  for (std::size_t i = 0; i < edges.size();) {
+    const std::size_t begin = i;
+    int way = 0;
+    for (; i < edges.size() && edges[i].low == edges[begin].low && edges[i].high == edges[begin].high; ++i)
+      way += edges[i].way;
+    if ((i - begin) % 2 != 0) return Closure::open;
+    if (way != 0) closure = Closure::even;
+  }
+  return closure;
 }
 
 std::vector<std::uint32_t> with_coincident_as_one(Points points, std::span<const std::uint32_t> corners) {

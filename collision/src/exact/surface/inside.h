@@ -1,7 +1,7 @@
 #pragma once
 
 #include <tendril/collision/box_tree.h>
-#include <tendril/exact/shape.h>
+#include <tendril/exact/surface.h>
 
 #include <cstdint>
 #include <vector>
@@ -10,8 +10,19 @@
 
 namespace tendril::exact {
 
-/// Each pair of different corners, whichever way round, is an edge of an even number of triangles.
-bool edges_are_even(std::span<const std::uint32_t> corners);
+/// Of each pair of different corners: whether it is an edge of an even number of triangles, and of as many
+/// one way round as the other.
+Closure closure_of(std::span<const std::uint32_t> corners);
+
+/// Crossings of a ray from a point that is on no triangle: all, and those that leave less those that enter.
+struct Crossings {
+  int all = 0, winding = 0;
+  void add(int crossing) {
+    all += crossing != 0;
+    winding += crossing;
+  }
+  bool inside(Closure closure) const { return closure == Closure::oriented ? winding != 0 : all % 2 != 0; }
+};
 
 /// The corners with the first of all points at the same place in each one's stead.
 std::vector<std::uint32_t> with_coincident_as_one(Points points, std::span<const std::uint32_t> corners);

@@ -47,8 +47,8 @@ Surface::Surface(Points points, std::span<const std::uint32_t> corners)
   check(points, corners);
   tree_ = collision::BoxTree(boxes(points));
   ordinary_ = ordinary(points);
-  closed_by_index_ = edges_are_even(corners_);
-  closed_ = closed_by_index_ || edges_are_even(with_coincident_as_one(points_, corners_));
+  closure_by_index_ = closure_of(corners_);
+  find_closure();
 }
 
 void Surface::refit(Points points) {
@@ -59,7 +59,13 @@ void Surface::refit(Points points) {
   tree_.refit(boxes(points));
   points_.assign(points.begin(), points.end());
   ordinary_ = ordinary(points);
-  closed_ = closed_by_index_ || edges_are_even(with_coincident_as_one(points_, corners_));
+  find_closure();
+}
+
+void Surface::find_closure() {
+  closure_ = closure_by_index_;
+  if (closure_ != Closure::oriented)
+    closure_ = std::max(closure_, closure_of(with_coincident_as_one(points_, corners_)));
 }
 
 Triangle Surface::triangle(std::size_t i) const {
@@ -119,19 +125,18 @@ Inside Surface::inside(const Vec3& point) const {
   const Predicates signs(range);
   const Shape query = exact::point(point);
   bool touching = false;
-  int crossed = 0, winding = 0;
+  Crossings crossed;
   tree_.descend([&](const Box& b) { return !touching && above_or_in(b, point); },
                 [&](std::size_t i) {
                   const Triangle t = triangle(i);
                   touching = collision::box_of(t).holds(point) &&
                              exact::relation(range, query, exact::triangle(t)) != Relation::free;
-                  const int crossing = touching ? 0 : crossing_above(signs, t, point);
-                  crossed += crossing != 0;
-                  winding += crossing;
+                  if (!touching) crossed.add(crossing_above(signs, t, point));
                 });
   if (touching) return {collision::kTouching};
-  if (!closed_) return {undecidable(Reason::open), winding_about(point)};
-  return {crossed % 2 != 0 ? collision::kHit : collision::kFree, static_cast<double>(winding)};
+  if (!closed()) return {undecidable(Reason::open), winding_about(point)};
+  return {crossed.inside(closure_) ? collision::kHit : collision::kFree,
+          static_cast<double>(crossed.winding)};
 }
 
 double Surface::winding_about(const Vec3& point) const {
