@@ -2,8 +2,16 @@
 
 #include <tendril/axis/find_axis.h>
 #include <tendril/base/error.h>
+#include <tendril/base/number.h>
 
 namespace tendril::runner {
+namespace {
+
+std::string name_of(const Vec3& p) {
+  return shortest(p.x()) + " " + shortest(p.y()) + " " + shortest(p.z());
+}
+
+}  // namespace
 
 std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::string& path, const RigAxes& how,
                                   std::string& doubt) {
@@ -25,6 +33,10 @@ std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::stri
                        std::string("no axis found, ") + axis::to_string(tree.status) + ": " + tree.reason,
                        "a mesh with limbs; --axis takes an axis drawn by hand");
   }
+  if (!tree.report.cuts.empty())
+    doubt += std::string(doubt.empty() ? "" : "; ") + std::to_string(tree.report.cuts.size()) +
+             " loop(s) of the axes are cut open, at " + name_of(tree.report.cuts[0]) +
+             " for one: nothing holds their ends together, and the mesh tears where they part";
   std::vector<RigCurve> out;
   for (axis::AxisCurve& curve : tree.curves) {
     const std::string name = out.empty() ? "axis" : "branch_" + std::to_string(out.size());

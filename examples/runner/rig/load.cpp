@@ -37,15 +37,16 @@ Beam beam_of(const RigCurve& curve, const std::vector<RigSection>& sections) {
 }
 
 /// From a foot up, as far as a leg goes.
+/// \param height  above the foot
 Beam leg_of(const RigCurve& curve, const std::vector<RigSection>& sections, const CurveEnd& foot,
-            const Stance& stance) {
+            const Stance& stance, double height) {
   Beam out;
   const std::size_t n = curve.points.size() - 1;
   const double ground = curve.points[foot.last ? n : 0].dot(stance.up);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t edge = foot.last ? n - 1 - k : k, top = foot.last ? edge : edge + 1;
     out.add(curve, sections, edge);
-    if (curve.points[top].dot(stance.up) - ground > kLegHeight * stance.height) break;
+    if (curve.points[top].dot(stance.up) - ground > height) break;
   }
   return out;
 }
@@ -58,31 +59,56 @@ double free_part(const std::vector<Held>& held, std::size_t curve, std::size_t c
   return fixed ? 0.0 : 1.0;
 }
 
-std::vector<Beam> legs_of(const std::vector<RigCurve>& curves, const Body& body, const Stance& stance) {
-  std::vector<Beam> out;
-  for (const CurveEnd& foot : stance.feet) {
-    // Toes share what the leg above them carries.
-    if (beam_of(curves[foot.curve], body.sections[foot.curve]).length < kToe * stance.height) continue;
-    out.push_back(leg_of(curves[foot.curve], body.sections[foot.curve], foot, stance));
-  }
+/// How far the centre of mass of all rods is above the ground.
+double height_of_mass(const std::vector<RigCurve>& curves, const Body& body, const Stance& stance) {
+  double mass = 0.0, moment = 0.0;
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    for (std::size_t i = 0; i + 1 < curves[k].points.size(); ++i) {
+      Beam edge;
+      edge.add(curves[k], body.sections[k], i);
+      mass += edge.volume;
+      moment += edge.volume *
+                (0.5 * (curves[k].points[i] + curves[k].points[i + 1]).dot(stance.up) - stance.ground);
+    }
+  return moment / mass;
+}
+
+/// What it stands on. Several legs hold what is on them upright, and sway with it; one alone carries it at its
+/// top, which tilts.
+struct Legs {
+  std::vector<Beam> beams;
+  bool tilts() const { return beams.size() == 1; }
+};
+
+Legs legs_of(const std::vector<RigCurve>& curves, const Body& body, const Stance& stance) {
+  Legs out;
+  std::vector<CurveEnd> feet;
+  // Toes share what the leg above them carries.
+  for (const CurveEnd& foot : stance.feet)
+    if (beam_of(curves[foot.curve], body.sections[foot.curve]).length >= kToe * stance.height)
+      feet.push_back(foot);
+  const double height = feet.size() == 1 ? height_of_mass(curves, body, stance) : kLegHeight * stance.height;
+  for (const CurveEnd& foot : feet)
+    out.beams.push_back(leg_of(curves[foot.curve], body.sections[foot.curve], foot, stance, height));
   return out;
 }
 
-/// Euler's load of a leg that is clamped at both ends and free to sway, pi^2 E I / L^2, over its share of the
-/// weight; by the mean of 1 / I, as the thinnest part gives way.
-double least_carried(const std::vector<Beam>& legs, double young, double weight) {
+/// Euler's load of a leg over its share of the weight: pi^2 E I / L^2 where it is clamped at both ends and free to
+/// sway, a quarter of that where its top tilts; by the mean of 1 / I, as the thinnest part gives way.
+double least_carried(const Legs& legs, double young, double weight) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Beam& leg : legs)
-    least = std::min(least,
-                     pi * pi * young / (leg.give * leg.length) * static_cast<double>(legs.size()) / weight);
+  const double share = (legs.tilts() ? 0.25 : 1.0) * static_cast<double>(legs.beams.size());
+  for (const Beam& leg : legs.beams)
+    least = std::min(least, pi * pi * young / (leg.give * leg.length) * share / weight);
   return least;
 }
 
-/// A force aside on the same legs, each as stiff as 12 E I / L^3.
-double sway(const std::vector<Beam>& legs, double young, double force) {
-  double stiffness = 0.0;
-  for (const Beam& leg : legs) stiffness += 12.0 * young / (leg.give * leg.length * leg.length);
-  return legs.empty() ? 0.0 : force / stiffness;
+/// Against a force aside on them: each leg is as stiff as 12 E I / L^3, one that tilts as 3 E I / L^3.
+double stiffness_aside(const Legs& legs, double young) {
+  double sum = 0.0;
+  for (const Beam& leg : legs.beams)
+    sum += (legs.tilts() ? 3.0 : 12.0) * young / (leg.give * leg.length * leg.length);
+  return sum;
 }
 
 /// Of all rods, seen from the side: the mean projected width of an ellipse is the sum of its semi-axes.
@@ -118,11 +144,17 @@ LoadEstimate estimate_load(const std::vector<RigCurve>& curves, const Body& body
     out.sag = std::max(out.sag, chord.cross(stance.up).norm() * compliance * g / (8.0 * length));
   }
   const double volume = body.volume > 0.0 ? body.volume : volume_of_rods(curves, body);
-  const std::vector<Beam> legs = legs_of(curves, body, stance);
-  out.carries = least_carried(legs, young, density * volume * g);
+  const Legs legs = legs_of(curves, body, stance);
+  const double aside = stiffness_aside(legs, young), weight = density * volume * g;
+  out.carries = least_carried(legs, young, weight);
+  // All of it on its legs; a weight that they only just carry swings ever more slowly.
+  if (legs.tilts() && out.carries > 1.0) {
+    const double period = 2.0 * pi * std::sqrt(density * volume / (aside * (1.0 - 1.0 / out.carries)));
+    if (period > out.period) out.period = period, out.slowest = "all on its leg";
+  }
   // Drag 1/2 rho C A v^2 at 1 m/s, in newtons; over the unit it is in kg unit / s^2.
   const double drag = 0.5 * kAirDensity * kDrag * area_in_wind(curves, body) * unit * unit;
-  out.sway = sway(legs, young, drag / unit) / stance.height;
+  out.sway = aside > 0.0 ? drag / unit / aside / stance.height : 0.0;
   return out;
 }
 

@@ -17,7 +17,7 @@ struct Held {
 /// it stands from one at which it lies.
 struct LoadEstimate {
   double period = 0.0;  ///< of the slowest limb's first bending mode [s]
-  std::string slowest;  ///< the name of its curve
+  std::string slowest;  ///< the name of its curve, or "all on its leg"
   /// Most that a limb's end comes down, over its length; small angles.
   double sag = 0.0;
   /// Least of Euler's load of a leg over its share of the weight; infinite where nothing stands on legs.

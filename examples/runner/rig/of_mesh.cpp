@@ -1,5 +1,7 @@
 #include "rig/of_mesh.h"
 
+#include "rig/part.h"
+
 #include <tendril/base/error.h>
 #include <tendril/base/file.h>
 #include <tendril/scene/curve_file.h>
@@ -34,7 +36,8 @@ Rig rig_mesh(const bind::PolygonMesh& mesh, const std::string& path, const RigAx
   std::vector<RigCurve> curves =
       axes.file.empty() ? find_curves(mesh, path, axes, doubt) : read_rig_curves(axes.file);
   try {
-    Rig rig = make_rig(mesh, std::move(curves), options);
+    // Other parts are bound to the axes of the largest, but are no sections of it.
+    Rig rig = make_rig(axes.largest_part ? largest_part(mesh) : mesh, std::move(curves), options);
     rig.doubt = std::move(doubt);
     return rig;
   } catch (const InvalidInput& error) {

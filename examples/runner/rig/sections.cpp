@@ -63,6 +63,13 @@ struct Axis {
     return static_cast<double>(k - 1) + std::clamp(part, 0.0, 1.0);
   }
 
+  /// Its ends are nearer to each other than an edge is long, and it goes a long way round.
+  bool is_ring() const {
+    const Points at = pair.primary().control_points();
+    const double edge = (at[1] - at[0]).norm() + (at[at.size() - 1] - at[at.size() - 2]).norm();
+    return at.size() > 4 && (at.front() - at.back()).norm() < edge;
+  }
+
  private:
   Axis(const RigCurve& curve, const Interpolator& fit)
       : pair(fit.knots(), fit.solve(curve.points), fit.solve(curve.orientation)),
@@ -84,7 +91,10 @@ class Cutter {
  public:
   Cutter(const bind::PolygonMesh& mesh, const std::vector<Axis>& axes, int threads)
       : binding_(pairs_of(axes), mesh, {.mode = bind::BindMode::nearest, .threads = threads}) {
-    for (const Axis& axis : axes) moments_.emplace_back(kPlanes * (axis.parameters.size() - 1));
+    for (const Axis& axis : axes) {
+      moments_.emplace_back(kPlanes * (axis.parameters.size() - 1));
+      rings_.push_back(axis.is_ring());
+    }
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       node_.push_back(axes[binding_.pair_of(i)].node_at(binding_.records()[i].t));
     for (std::size_t f = 0; f < mesh.face_count(); ++f) cut(mesh.face(f));
@@ -113,6 +123,8 @@ class Cutter {
     if (axis_of(face[1]) != axis || axis_of(face[2]) != axis) return;
     const auto [low, high] = std::minmax({node_[face[0]], node_[face[1]], node_[face[2]]});
     std::vector<Moments>& planes = moments_[axis];
+    // Across the seam of a ring a small triangle goes from one end of the axis to the other, not along it.
+    if (rings_[axis] && (high - low) * kPlanes > 0.5 * static_cast<double>(planes.size())) return;
     auto j = static_cast<std::size_t>(std::max(0.0, std::ceil(low * kPlanes - 0.5)));
     for (; j < planes.size() && plane(j) < high; ++j) cut(face, plane(j), planes[j]);
   }
@@ -136,6 +148,7 @@ class Cutter {
   bind::Binding binding_;
   std::vector<double> node_;
   std::vector<std::vector<Moments>> moments_;
+  std::vector<bool> rings_;
 };
 
 /// Of a node: the mean of the planes within half an edge that show enough of a section; area 0 for none.
