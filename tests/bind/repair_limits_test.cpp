@@ -85,6 +85,22 @@ TEST(RepairLimits, LeavesACavityAsItIs) {
   EXPECT_FALSE(repair(mesh).changed());
 }
 
+/// Inside out as a whole, a body with a cavity is turned as a whole, and one with a kernel is, too.
+TEST(RepairLimits, TurnsACavityWithTheBodyAroundIt) {
+  const std::vector<Vec3> points{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9},
+                                 {1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
+  const std::vector<Ids> body{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+      cavity{{4, 5, 6}, {4, 7, 5}, {5, 7, 6}, {6, 7, 4}};
+  for (const bool hollow : {true, false}) {
+    std::vector<Ids> faces;
+    for (Ids face : body) faces.push_back({face[0], face[2], face[1]});
+    for (Ids face : cavity) faces.push_back(hollow ? Ids{face[0], face[2], face[1]} : face);
+    const Repaired repaired = repair(mesh_of(points, faces));
+    EXPECT_EQ(repaired.turned, (Ids{0, 1, 2, 3, 4, 5, 6, 7})) << hollow;
+    EXPECT_EQ(repaired.left.inside_out, 0U);
+  }
+}
+
 TEST(RepairLimits, MergesWithinADistance) {
   PolygonMesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1e-12, 0}, {1, 1, 0}, {1e-12, 1, 0}},
                              {{0, 1, 2}, {3, 4, 5}});

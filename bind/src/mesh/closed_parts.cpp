@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "disjoint_sets.h"
@@ -78,18 +79,47 @@ ClosedPart::ClosedPart(const PolygonMesh& mesh, std::span<const Face> faces) {
   }
 }
 
+namespace {
+
+/// Of a polygon as a fan, seen from a point.
+double angle_of(const PolygonMesh& mesh, std::size_t f, const Vec3& p) {
+  const auto face = mesh.face(f);
+  double angle = 0.0;
+  for (std::size_t k = 2; k < face.size(); ++k)
+    angle += solid_angle(mesh.points[face[0]] - p, mesh.points[face[k - 1]] - p, mesh.points[face[k]] - p);
+  return angle;
+}
+
+bool goes_round(double angle) {
+  return std::abs(angle) > 2.0 * std::numbers::pi;  // half of a full turn round
+}
+
+}  // namespace
+
+bool within(const PolygonMesh& mesh, std::span<const std::uint32_t> part,
+            std::span<const std::uint32_t> other) {
+  const Vec3 p = mesh.points[mesh.face(part.front())[0]];
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const std::uint32_t f : other)
+    for (const std::uint32_t i : mesh.face(f)) {
+      low = low.cwiseMin(mesh.points[i]);
+      high = high.cwiseMax(mesh.points[i]);
+    }
+  if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) return false;
+  double angle = 0.0;
+  for (const std::uint32_t f : other) angle += angle_of(mesh, f, p);
+  return goes_round(angle);
+}
+
 bool nested(const PolygonMesh& mesh, std::span<const ClosedPart::Face> part) {
   std::vector<char> own(mesh.face_count(), 0);
   for (const ClosedPart::Face& f : part) own[f.id] = 1;
   const Vec3 p = mesh.points[mesh.face(part.front().id)[0]];
   double angle = 0.0;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    if (own[f]) continue;
-    const auto face = mesh.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k)
-      angle += solid_angle(mesh.points[face[0]] - p, mesh.points[face[k - 1]] - p, mesh.points[face[k]] - p);
+    if (!own[f]) angle += angle_of(mesh, f, p);
   }
-  return std::abs(angle) > 2.0 * std::numbers::pi;  // half of a full turn round
+  return goes_round(angle);
 }
 
 std::vector<std::vector<ClosedPart::Face>> parts_of(const PolygonMesh& mesh) {

@@ -30,6 +30,9 @@ class ClosedPart {
 /// Whether a part lies within others: the winding number of the rest of the mesh about its first point is not
 /// 0. Then either way round is right, a cavity's as a kernel's.
 bool nested(const PolygonMesh& mesh, std::span<const ClosedPart::Face> part);
+/// Whether a part lies within another.
+bool within(const PolygonMesh& mesh, std::span<const std::uint32_t> part,
+            std::span<const std::uint32_t> other);
 
 /// Faces joined by edges that two of them use, part after part in the order of their first faces.
 std::vector<std::vector<ClosedPart::Face>> parts_of(const PolygonMesh& mesh);

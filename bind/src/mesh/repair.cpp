@@ -151,6 +151,7 @@ void Mender::orient() {
   const std::size_t count = out_.mesh.face_count();
   std::vector<char> over(count, 0), seen(count, 0);
   Ids part;
+  std::vector<Ids> inside_out, others;
   for (std::uint32_t seed = 0; seed < count; ++seed) {
     if (seen[seed]) continue;
     part.assign(1, seed);
@@ -168,9 +169,17 @@ void Mender::orient() {
         turned += wanted != 0;
         part.push_back(link.face);
       }
-    if (turns_better(part, over, turned))
+    const bool turns = turns_better(part, over, turned);
+    if (turns)
       for (const std::uint32_t f : part) over[f] = !over[f];
+    const std::size_t now = turns ? part.size() - turned : turned;
+    (2 * now > part.size() ? inside_out : others).push_back(part);
   }
+  // What is within a part that was inside out is turned with it: a cavity stays one.
+  for (const Ids& outer : inside_out)
+    for (const Ids& inner : others)
+      if (within(out_.mesh, inner, outer))
+        for (const std::uint32_t f : inner) over[f] = !over[f];
   std::sort(out_.one_sided.begin(), out_.one_sided.end());
   out_.one_sided.erase(std::unique(out_.one_sided.begin(), out_.one_sided.end()), out_.one_sided.end());
   turn(over);
