@@ -126,6 +126,7 @@ void draw_tree(const AxisArguments& options, const bind::PolygonMesh& mesh, cons
 }
 
 int find(const AxisArguments& options) {
+  require_other_file("--picture", options.picture, options.out);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
   axis::AxisTree tree;

@@ -6,13 +6,18 @@
 
 #include <tendril/base/file.h>
 #include <tendril/bind/distortion.h>
+#include <tendril/bind/inspect.h>
 #include <tendril/curve/equal_length.h>
 
+#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 namespace tendril::runner {
 namespace {
+
+constexpr double kMuchVolume = 0.1;  // of it: a change that is said
 
 struct DeformArguments {
   std::string mesh, axis, pose, out;
@@ -54,6 +59,26 @@ void warn(const std::string& out, const bind::Distortion& d) {
       worst.centre.y(), worst.centre.z());
 }
 
+/// What a mesh encloses, where it is closed.
+std::optional<double> volume_of(const bind::PolygonMesh& mesh) {
+  if (!bind::inspect(mesh).is_closed()) return {};
+  double six = 0.0;
+  const Vec3 from = mesh.points.front();
+  for (const auto& [a, b, c] : bind::fan_triangles(mesh))
+    six += (mesh.points[a] - from).dot((mesh.points[b] - from).cross(mesh.points[c] - from));
+  return six / 6.0;
+}
+
+/// Bends keep volume but for what is stretched; edges that are long against a bend cut across it.
+void warn_of_volume(const std::string& out, std::optional<double> before, std::optional<double> now) {
+  if (!before || !now || !(std::abs(*now - *before) > kMuchVolume * std::abs(*before))) return;
+  std::fprintf(
+      stderr,
+      "tendril: note: %s: the volume went to %.2g of what it was: the pose stretches or crushes it, or "
+      "the mesh is too coarse to bend like that, with edges that are long against the bend\n",
+      out.c_str(), *now / *before);
+}
+
 void tell(const DeformArguments& options, const bind::BindReport& report, const bind::Distortion& distortion,
           std::size_t points) {
   if (options.json) {
@@ -79,6 +104,7 @@ int deform(const DeformArguments& options) {
       read_axes({options.axis}, {options.pose}, options.equal_length ? "" : "the same, or --equal-length");
   const bind::Binding binding(axes.rest, mesh,
                               {.mode = options.mode.mode(), .band = options.band, .threads = threads});
+  const std::optional<double> before = volume_of(mesh);
   std::vector<Vec3> points(mesh.points.size());
   if (options.equal_length) {
     deform_at_equal_length(binding, axes, points);
@@ -90,6 +116,13 @@ int deform(const DeformArguments& options) {
   mesh.points = std::move(points);
   save_mesh(options.out, mesh);
   warn(options.out, distortion);
+  warn_of_volume(options.out, before, volume_of(mesh));
+  if (binding.report().beyond_ends == mesh.points.size())
+    std::fprintf(
+        stderr,
+        "tendril: note: %s: all of it is beyond the ends of the axis: are both in the same place, and "
+        "in the same unit?\n",
+        options.out.c_str());
   tell(options, binding.report(), distortion, mesh.points.size());
   return kDone;
 }
@@ -107,7 +140,8 @@ Command deform_command(CLI::App& parent) {
   options->mode.add_to(*app);
   app->add_option("--band", options->band,
                   "width of transitions, in distances to the axis; a wider one folds less")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes("--nearest");
   app->add_flag("--equal-length", options->equal_length, "keep lengths along the axis");
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
   app->add_flag("--json", options->json, "print JSON");

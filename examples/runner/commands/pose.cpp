@@ -68,40 +68,30 @@ Mat3 rotation(const Vec3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-/// Of each edge: 0 for the first, 1 for the last, by the lengths to their middles in between. A single one:
-/// 1.
+/// Of each node, its length along the curve over the whole.
 std::vector<double> parts_along(const std::vector<Vec3>& p) {
-  std::vector<double> middle;
-  double length = 0.0;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    const double edge = (p[i] - p[i - 1]).norm();
-    middle.push_back(length + 0.5 * edge);
-    length += edge;
-  }
-  if (middle.size() == 1) return {1.0};
-  const double first = middle.front(), all = middle.back() - first;
-  for (double& m : middle) m = (m - first) / all;
-  return middle;
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < p.size(); ++i) along.push_back(along.back() + (p[i] - p[i - 1]).norm());
+  const double length = along.back();
+  for (double& part : along) part /= length;
+  return along;
 }
 
 /// Bends evenly towards the side that the orientation points are on, and twists evenly, from a start that
-/// is given.
+/// is given. Edges are chords of the arc, each turned as the arc is at its middle: the end is off the arc's
+/// by the square of an edge's angle.
 void pose(Limb& limb, const Vec3& start, const Mat3& from) {
   const std::vector<Frame> frames = node_frames(limb.p, limb.q).frame;
   const std::vector<double> part = parts_along(limb.p);
   const Vec3 about = -frames.front().x;
   limb.posed = {start};
-  double length = 0.0, along = 0.0;
-  for (std::size_t i = 1; i < limb.p.size(); ++i) {
-    const Vec3 edge = limb.p[i] - limb.p[i - 1];
-    length += edge.norm();
-    limb.posed.push_back(limb.posed.back() + from * rotation(about, limb.bend * part[i - 1]) * edge);
-  }
+  for (std::size_t i = 1; i < limb.p.size(); ++i)
+    limb.posed.push_back(limb.posed.back() + from *
+                                                 rotation(about, limb.bend * 0.5 * (part[i - 1] + part[i])) *
+                                                 (limb.p[i] - limb.p[i - 1]));
   for (std::size_t i = 0; i < limb.p.size(); ++i) {
-    if (i > 0) along += (limb.p[i] - limb.p[i - 1]).norm();
-    const double before = part[i > 0 ? i - 1 : 0], after = part[std::min(i, part.size() - 1)];
-    limb.turn.push_back(from * rotation(about, limb.bend * 0.5 * (before + after)) *
-                        rotation(frames[i].z, limb.twist * along / length));
+    limb.turn.push_back(from * rotation(about, limb.bend * part[i]) *
+                        rotation(frames[i].z, limb.twist * part[i]));
     limb.side.push_back(limb.posed[i] + limb.turn[i] * (limb.q[i] - limb.p[i]));
   }
 }
@@ -176,8 +166,10 @@ Command pose_command(CLI::App& parent) {
   const auto options = std::make_shared<PoseArguments>();
   app->add_option("axis", options->axis, "curve file (JSON) at rest, of one or several chains of points")
       ->required();
-  app->add_option("--bend", options->bends,
-                  "NAME:DEGREES, evenly along the curve, towards its orientation side; its start stays")
+  app->add_option(
+         "--bend", options->bends,
+         "NAME:DEGREES, evenly along the curve, towards its orientation side; its start, and the way it "
+         "sets out, stay; several add up")
       ->allow_extra_args(false);
   app->add_option("--twist", options->twists, "NAME:DEGREES at its end, evenly from none at its start")
       ->allow_extra_args(false);

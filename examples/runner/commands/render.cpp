@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -85,6 +86,12 @@ int render(const RenderArguments& options) {
 }
 
 }  // namespace
+
+void require_other_file(const std::string& option, const std::string& path, const std::string& out) {
+  namespace fs = std::filesystem;
+  if (!path.empty() && fs::absolute(path).lexically_normal() == fs::absolute(out).lexically_normal())
+    throw InvalidInput(option, "'" + path + "', which --out writes", "another file");
+}
 
 int thread_count(int asked) {
   if (asked < 0 || asked > 256) throw InvalidInput("--threads", std::to_string(asked), "0 (all) to 256");

@@ -99,9 +99,10 @@ Command repair_command(CLI::App& parent) {
   const auto options = std::make_shared<RepairArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "OFF or PLY file to write")->required();
-  app->add_flag("--keep-points", options->keep_points, "merge no points of the same place");
+  auto* keep = app->add_flag("--keep-points", options->keep_points, "merge no points of the same place");
   app->add_option("--merge-distance", options->merge_distance,
-                  "merge points as near as this share of the mesh's size, at most 0.01");
+                  "merge points as near as this share of the mesh's size, at most 0.01")
+      ->excludes(keep);
   app->add_flag("--keep-degenerate", options->keep_degenerate, "keep faces without area");
   app->add_flag("--keep-duplicates", options->keep_duplicates, "keep faces of the same points");
   app->add_flag("--keep-orientation", options->keep_orientation, "turn no face over");

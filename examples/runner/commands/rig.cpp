@@ -115,6 +115,7 @@ std::string command_of(const RigArguments& options) {
 }
 
 int rig(const RigArguments& options) {
+  require_other_file("--picture", options.picture, options.out);
   const bind::PolygonMesh mesh = read_mesh(options.mesh);
   const auto start = std::chrono::steady_clock::now();
   RigOptions how = options.rig;
@@ -141,11 +142,14 @@ Command rig_command(CLI::App& parent) {
   const auto options = std::make_shared<RigArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
   app->add_option("--out", options->out, "scene file (JSON) to write")->required();
-  app->add_option("--axis", options->axes.file, "curve file to start from, instead of axes that are found");
-  app->add_flag("--close", options->axes.close, "find the axes of a copy whose holes are closed");
+  auto* axis = app->add_option("--axis", options->axes.file,
+                               "curve file to start from, instead of axes that are found");
+  app->add_flag("--close", options->axes.close, "find the axes of a copy whose holes are closed")
+      ->excludes(axis);
   app->add_flag("--largest-part", options->axes.largest_part,
-                "find the axes of the part with the largest area");
-  app->add_option("--spacing", options->axes.spacing, "between the nodes of the curves, about");
+                "find the axes of the part with the largest area, and measure that alone");
+  app->add_option("--spacing", options->axes.spacing, "between the nodes of the curves, about")
+      ->excludes(axis);
   std::string names;
   for (const NamedMaterial& m : materials()) names += (names.empty() ? "" : ", ") + std::string(m.name);
   app->add_option("--material", options->rig.material, names + "; rubber where that stands, or else foam");

@@ -73,8 +73,8 @@ double height_of_mass(const std::vector<RigCurve>& curves, const Body& body, con
   return moment / mass;
 }
 
-/// What it stands on. Several legs hold what is on them upright, and sway with it; one alone carries it at its
-/// top, which tilts.
+/// What it stands on. Several legs hold what is on them upright, and sway with it; one alone carries it at
+/// its top, which tilts.
 struct Legs {
   std::vector<Beam> beams;
   bool tilts() const { return beams.size() == 1; }
@@ -93,8 +93,9 @@ Legs legs_of(const std::vector<RigCurve>& curves, const Body& body, const Stance
   return out;
 }
 
-/// Euler's load of a leg over its share of the weight: pi^2 E I / L^2 where it is clamped at both ends and free to
-/// sway, a quarter of that where its top tilts; by the mean of 1 / I, as the thinnest part gives way.
+/// Euler's load of a leg over its share of the weight: pi^2 E I / L^2 where it is clamped at both ends and
+/// free to sway, a quarter of that where its top tilts; by the mean of 1 / I, as the thinnest part gives
+/// way.
 double least_carried(const Legs& legs, double young, double weight) {
   double least = std::numeric_limits<double>::infinity();
   const double share = (legs.tilts() ? 0.25 : 1.0) * static_cast<double>(legs.beams.size());

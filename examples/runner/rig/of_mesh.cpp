@@ -1,6 +1,6 @@
 #include "rig/of_mesh.h"
 
-#include "rig/part.h"
+#include "rig/refine.h"
 
 #include <tendril/base/error.h>
 #include <tendril/base/file.h>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace tendril::runner {
 namespace {
@@ -32,6 +33,33 @@ class Splitter {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 
+/// Points that faces, or their places, make one.
+class Parts {
+ public:
+  explicit Parts(const bind::PolygonMesh& mesh) : parent_(mesh.points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    std::vector<std::uint32_t> order = parent_;
+    const auto place = [&](std::uint32_t i) {
+      const Vec3& p = mesh.points[i];
+      return std::array{p.x(), p.y(), p.z()};
+    };
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return place(a) < place(b); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (place(order[i]) == place(order[i - 1])) join(order[i], order[i - 1]);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+      for (const std::uint32_t corner : mesh.face(f)) join(corner, mesh.face(f)[0]);
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+  std::vector<std::uint32_t> parent_;
+};
+
 }  // namespace
 
 bind::PolygonMesh split_long_edges(const bind::PolygonMesh& mesh, double longest) {
@@ -59,6 +87,29 @@ bind::PolygonMesh split_long_edges(const bind::PolygonMesh& mesh, double longest
   }
   for (const Triangle& t : now) {
     out.corners.insert(out.corners.end(), t.begin(), t.end());
+    out.face_begin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+  }
+  return out;
+}
+
+bind::PolygonMesh largest_part(const bind::PolygonMesh& mesh) {
+  Parts parts(mesh);
+  std::vector<double> area(mesh.points.size(), 0.0);
+  for (const auto& [a, b, c] : bind::fan_triangles(mesh))
+    area[parts.root(a)] += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  const auto largest = static_cast<std::uint32_t>(std::max_element(area.begin(), area.end()) - area.begin());
+  constexpr auto kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> number(mesh.points.size(), kNone);
+  bind::PolygonMesh out;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (parts.root(mesh.face(f)[0]) != largest) continue;
+    for (const std::uint32_t corner : mesh.face(f)) {
+      if (number[corner] == kNone) {
+        number[corner] = static_cast<std::uint32_t>(out.points.size());
+        out.points.push_back(mesh.points[corner]);
+      }
+      out.corners.push_back(number[corner]);
+    }
     out.face_begin.push_back(static_cast<std::uint32_t>(out.corners.size()));
   }
   return out;

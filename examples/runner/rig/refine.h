@@ -9,4 +9,8 @@ namespace tendril::runner {
 /// unequally.
 bind::PolygonMesh split_long_edges(const bind::PolygonMesh& mesh, double longest);
 
+/// The faces joined by points, or by points at the same place, that have the largest area together, and
+/// their points; without attributes.
+bind::PolygonMesh largest_part(const bind::PolygonMesh& mesh);
+
 }  // namespace tendril::runner
