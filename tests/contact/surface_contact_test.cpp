@@ -44,6 +44,7 @@ TEST(SurfaceContact, KeepsToWhatItSaysOfItself) {
     for (Vec3& p : s.p) p += random.in_cube(1e-4);
     const ForceCheck check = check_force(contact, s.view(), 1e-6);
     EXPECT_TRUE(check.undeclared.empty());
+    EXPECT_LT(check.local, 1e-12);
     ASSERT_TRUE(contact.has_energy());
     EXPECT_LT(check.energy, 2e-6);
   }
@@ -69,6 +70,7 @@ TEST(SurfaceContact, ActsOnFreeBodiesAsOnTheSurface) {
     contact.add(s.view(), {force, torque, nullptr, wrench});
     const ForceCheck check = check_force(contact, s.view(), 1e-6);
     EXPECT_TRUE(check.undeclared.empty());
+    EXPECT_LT(check.local, 1e-12);
     if (contact.has_energy()) EXPECT_LT(check.energy, 2e-6);
     // The floor aside, nothing comes from outside: not with the floor out of reach.
     std::vector<Collider> bodies(all.begin() + 1, all.end());

@@ -291,5 +291,23 @@ TEST(Run, AMeshOfTwoCurvePairsFollowsBoth) {
   }
 }
 
+/// A scene that does not say what its mesh follows has it follow the first curve-pair, which is said where
+/// there are others beside it.
+TEST(Run, SaysWhatAMeshDoesNotFollow) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  Json json = Json::parse(full_scene());
+  folder.write("named.json", json.dump());
+  json.erase("bound_to");
+  folder.write("plain.json", json.dump());
+  const Outcome named = folder.run("run named.json --out a --no-frames --no-pictures");
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_EQ(named.err.find("bound_to"), std::string::npos) << named.err;
+  const Outcome plain = folder.run("run plain.json --out b --no-frames --no-pictures");
+  EXPECT_EQ(plain.code, 0) << plain.err;
+  EXPECT_NE(plain.err.find("follows 'stem' and what is joined to it, not 'chain'"), std::string::npos)
+      << plain.err;
+}
+
 }  // namespace
 }  // namespace tendril::test

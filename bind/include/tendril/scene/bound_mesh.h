@@ -12,7 +12,8 @@ namespace tendril::scene {
 
 /// The scene's mesh, or an empty one where it names none.
 /// \param file   the scene
-/// \param notes  gets what is odd about the mesh's file but not refused; or null, and it is refused
+/// \param notes  gets what is odd about the mesh's file but not refused, and which curve-pairs it does not
+///               follow where the scene does not say; or null, and what is odd is refused
 /// Throws FileError or InvalidInput, "mesh:line", as bind::read_mesh, and where the mesh has no points.
 TENDRIL_SCENE_API bind::PolygonMesh read_scene_mesh(const SceneFile& file,
                                                     std::vector<std::string>* notes = nullptr);

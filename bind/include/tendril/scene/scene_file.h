@@ -45,6 +45,7 @@ struct SceneFile {
   std::optional<std::size_t> self_contact;   ///< of that of rods with each other and themselves
   std::string mesh;                          ///< path relative to the working folder; empty for none
   std::vector<std::size_t> bound_to;         ///< curve-pairs that the mesh follows, at least one
+  bool bound_by_default = false;             ///< the file does not say which
   std::vector<StartMotion> start_motions;    ///< see start_state
   bool start_at_equilibrium = false;         ///< of all forces, at time 0; else at rest, unstressed
   std::string start_place;                   ///< JSON pointer of what says so

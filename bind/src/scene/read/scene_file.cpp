@@ -95,6 +95,7 @@ void read_mesh_name(const JsonNode& file, SceneFile& out) {
 /// The curve-pairs named; or else the first and all that are joined to it, one way or another.
 void read_bound_to(const JsonNode& file, SceneFile& out) {
   if (!file.has("bound_to")) {
+    out.bound_by_default = true;
     std::vector<bool> joined(out.names.size(), false);
     joined[0] = true;
     for (const Joint& joint : out.scene.joints) joined[joint.child] = joined[joint.parent];

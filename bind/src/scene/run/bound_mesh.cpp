@@ -67,10 +67,25 @@ std::vector<std::size_t> beyond_reach(const bind::Binding& binding, std::span<co
 
 }  // namespace
 
+namespace {
+
+/// Whoever has several curve-pairs beside each other may mean the mesh to follow them all.
+void note_unbound(const SceneFile& file, std::vector<std::string>& notes) {
+  if (!file.bound_by_default || file.bound_to.size() == file.names.size()) return;
+  std::size_t other = 0;
+  while (other < file.bound_to.size() && file.bound_to[other] == other) ++other;
+  notes.push_back(file.path + ": the mesh follows '" + file.names[file.bound_to[0]] +
+                  "' and what is joined to it, not '" + file.names[other] +
+                  "' for one: \"bound_to\" names all that it is to follow");
+}
+
+}  // namespace
+
 bind::PolygonMesh read_scene_mesh(const SceneFile& file, std::vector<std::string>* notes) {
   if (file.mesh.empty()) return {};
   bind::PolygonMesh mesh = bind::read_mesh(file.mesh, notes);
   if (mesh.points.empty()) throw InvalidInput(file.mesh, "no points", "a mesh");
+  if (notes) note_unbound(file, *notes);
   return mesh;
 }
 

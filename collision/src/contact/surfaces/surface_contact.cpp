@@ -41,16 +41,41 @@ class VertexForces {
   std::vector<Vec3> force_;
 };
 
+void add_forces(const SurfaceModel& model, const StateView& state, PosedSurface& surface,
+                const SurfaceLedger* kept, const Loads& loads) {
+  const std::size_t node = state.rods[model.points().rods().front()].first;
+  if (!surface.sound()) return loads.refuse(node);
+  VertexForces forces;
+  const auto closed = each_meeting(model, surface, kept, [&](const SurfaceMeeting& meeting) {
+    const Nearness& near = meeting.at.near;
+    forces.add(meeting.at, meeting.response.force);
+    if (const auto& body = model.colliders[near.collider].body)
+      loads.bodies[*body].add_at(near.x, -meeting.response.force, near.placed->position);
+  });
+  if (closed) return loads.refuse(node);
+  if (forces.vertices().empty()) return;
+  if (!all_finite(forces.forces())) return loads.refuse(node);
+  model.points().add_loads(
+      state, model.points().points().pull_back(surface.pairs(), forces.vertices(), forces.forces()), loads);
+}
+
 /// The nodes of the rods that hold what is in the range of a solid, and the solid where it is free.
 LocalCouplings acting_at(const SurfaceModel& model, const StateView& state) {
   const SurfaceLedger* kept = surface_ledger_of(state.memory);
   PosedSurface surface(model, state, kept);
   LocalCouplings result;
   if (!surface.sound()) return result;
+  auto near = std::make_shared<SurfaceInRange>();
+  near->holds.resize(model.points().rods().size(), false);
   std::set<std::pair<const Patch*, std::size_t>> seen;
   each_meeting(model, surface, kept, [&](const SurfaceMeeting& meeting) {
-    seen.emplace(meeting.at.patch, meeting.at.near.collider);
+    const NearPoint& at = meeting.at;
+    seen.emplace(at.patch, at.near.collider);
+    near->points.push_back(
+        {at.patch, at.triangle, at.near.collider, static_cast<std::uint32_t>(at.near.point)});
   });
+  for (const auto& [patch, collider] : seen)
+    for (const std::uint32_t span : patch->spans) near->holds[model.laid.spans[span].pair] = true;
   std::set<std::vector<std::size_t>> together;
   for (const auto& [patch, collider] : seen) {
     std::set<std::size_t> rods;
@@ -67,6 +92,11 @@ LocalCouplings acting_at(const SurfaceModel& model, const StateView& state) {
     const Couplings all = Couplings::among(nodes);
     result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
   }
+  result.add = [&model, near](const StateView& beside, const Loads& loads) {
+    const SurfaceLedger* at = surface_ledger_of(beside.memory);
+    PosedSurface there(model, beside, at, *near);
+    add_forces(model, beside, there, at, loads);
+  };
   return result;
 }
 
@@ -77,23 +107,9 @@ SurfaceContact::SurfaceContact(ContactSurface surface, std::vector<Collider> col
 SurfaceContact::~SurfaceContact() = default;
 
 void SurfaceContact::add(const StateView& state, const Loads& loads) const {
-  const SurfaceModel& model = *model_;
   const SurfaceLedger* kept = surface_ledger_of(state.memory);
-  PosedSurface surface(model, state, kept);
-  const std::size_t node = state.rods[model.points().rods().front()].first;
-  if (!surface.sound()) return loads.refuse(node);
-  VertexForces forces;
-  const auto closed = each_meeting(model, surface, kept, [&](const SurfaceMeeting& meeting) {
-    const Nearness& near = meeting.at.near;
-    forces.add(meeting.at, meeting.response.force);
-    if (const auto& body = model.colliders[near.collider].body)
-      loads.bodies[*body].add_at(near.x, -meeting.response.force, near.placed->position);
-  });
-  if (closed) return loads.refuse(node);
-  if (forces.vertices().empty()) return;
-  if (!all_finite(forces.forces())) return loads.refuse(node);
-  model.points().add_loads(
-      state, model.points().points().pull_back(surface.pairs(), forces.vertices(), forces.forces()), loads);
+  PosedSurface surface(*model_, state, kept);
+  add_forces(*model_, state, surface, kept, loads);
 }
 
 Couplings SurfaceContact::couplings(std::span<const NodeRange> rods) const {

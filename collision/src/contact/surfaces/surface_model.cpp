@@ -73,6 +73,14 @@ PosedSurface::PosedSurface(const SurfaceModel& model, const StateView& state, co
   if (!sound_) awake_.clear();
 }
 
+/// Curves that hold nothing in range may be anywhere.
+PosedSurface::PosedSurface(const SurfaceModel& model, const StateView& state, const SurfaceLedger* kept,
+                           const SurfaceInRange& near)
+    : model_(model), state_(state), kept_(kept), near_(&near), placed_(model.colliders.place(state)) {
+  pairs_ = model.points().pairs(state, near.holds);
+  sound_ = !pairs_.empty();
+}
+
 /// In the frame of the solid a mass moved by at most some way, and control points by at most the gain times
 /// it, since interpolation carries every motion of the frame along; so what the hulls about them hold moved
 /// no farther.
@@ -203,7 +211,8 @@ const std::vector<Vec3>& PosedSurface::vertices_before(const Patch& patch) {
 const std::vector<Vec3>& PosedSurface::velocities(const Patch& patch) {
   std::vector<Vec3>& velocity = found(patch).velocity;
   if (!velocity.empty()) return velocity;
-  if (rates_.empty()) rates_ = model_.points().rates(state_);
+  if (rates_.empty())
+    rates_ = near_ ? model_.points().rates(state_, near_->holds) : model_.points().rates(state_);
   velocity.resize(patch.vertices.size(), Vec3::Zero());
   if (!rates_.empty()) model_.points().points().velocities(pairs_, rates_, patch.vertices, velocity);
   return velocity;

@@ -62,6 +62,19 @@ struct NearPoint {
   Nearness near;
 };
 
+/// Where to find a NearPoint again at another state.
+struct PointInRange {
+  const Patch* patch;
+  const LaidTriangle* triangle;
+  std::size_t collider;
+  std::uint32_t point;
+};
+/// What is in the range of solids at a state, in the order in which it is met.
+struct SurfaceInRange {
+  std::vector<PointInRange> points;
+  std::vector<bool> holds;  ///< per curve-pair: whether it holds one of them
+};
+
 /// The surface at a state, deformed where a solid could be near.
 class PosedSurface {
  public:
@@ -70,6 +83,11 @@ class PosedSurface {
   /// \param kept  null at the start
   PosedSurface(const SurfaceModel& model, const StateView& state, const SurfaceLedger* kept,
                Colliders which = Colliders::near);
+
+  /// At a state beside one: nothing is looked for.
+  /// \param near  what was in range there, kept by reference
+  PosedSurface(const SurfaceModel& model, const StateView& state, const SurfaceLedger* kept,
+               const SurfaceInRange& near);
 
   /// False where its curves cannot be computed.
   bool sound() const { return sound_; }
@@ -130,6 +148,7 @@ class PosedSurface {
   const StateView& state_;
   const SurfaceLedger* kept_;
   bool sound_ = true;
+  const SurfaceInRange* near_ = nullptr;  ///< of the state beside, or null
   std::vector<Placement> placed_;
   std::vector<std::size_t> awake_;  ///< colliders that something could be near
   std::vector<CurvePair> pairs_, rates_;
@@ -146,6 +165,13 @@ AboutTriangle about(const LaidTriangle& triangle, const std::vector<Vec3>& at);
 
 template <class Visit>
 void PosedSurface::each_near(Visit&& visit) {
+  if (near_) {
+    if (!sound_) return;
+    for (const PointInRange& at : near_->points)
+      if (!visit(near_point({at.patch, at.triangle, at.collider, 0.0, vertices(*at.patch)}, at.point)))
+        return;
+    return;
+  }
   std::vector<std::vector<double>> moved;
   for (const std::size_t c : awake_) moved.push_back(motions(c));
   for (const Patch& patch : model_.laid.patches)

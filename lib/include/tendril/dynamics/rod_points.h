@@ -24,6 +24,14 @@ class TENDRIL_CORE_API RodPoints {
   std::vector<CurvePair> pairs(const StateView& state) const;
   /// How fast their control points move, likewise.
   std::vector<CurvePair> rates(const StateView& state) const;
+  /// As pairs() of some of them; the others, on their knots, have all control points at 0.
+  /// \param state  at which the forces are
+  /// \param which  per curve-pair
+  std::vector<CurvePair> pairs(const StateView& state, const std::vector<bool>& which) const;
+  /// As rates(), likewise.
+  /// \param state  at which the forces are
+  /// \param which  per curve-pair
+  std::vector<CurvePair> rates(const StateView& state, const std::vector<bool>& which) const;
   /// Adds what forces on the control points mean for the masses and frames.
   /// \param state   at which the forces are
   /// \param forces  one for each of rods(), as LoadedPoints::pull_back gives them

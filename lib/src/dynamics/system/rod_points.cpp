@@ -42,6 +42,31 @@ std::vector<CurvePair> RodPoints::rates(const StateView& state) const {
   return result;
 }
 
+namespace {
+
+CurvePair at_zero(const KnotVector& knots) {
+  const std::vector<Vec3> none(static_cast<std::size_t>(knots.control_points()), Vec3::Zero());
+  return {knots, none, none};
+}
+
+}  // namespace
+
+std::vector<CurvePair> RodPoints::pairs(const StateView& state, const std::vector<bool>& which) const {
+  std::vector<CurvePair> result;
+  if (!fits(state.p)) return result;
+  for (std::size_t i = 0; i < rods_.size(); ++i)
+    result.push_back(which[i] ? curves_.pair(state, rods_[i]) : at_zero(curves_.knots(rods_[i])));
+  return result;
+}
+
+std::vector<CurvePair> RodPoints::rates(const StateView& state, const std::vector<bool>& which) const {
+  std::vector<CurvePair> result;
+  if (!fits(state.v) || !fits(state.turn)) return result;
+  for (std::size_t i = 0; i < rods_.size(); ++i)
+    result.push_back(which[i] ? curves_.rates(state, rods_[i]) : at_zero(curves_.knots(rods_[i])));
+  return result;
+}
+
 void RodPoints::add_loads(const StateView& state, std::span<const ControlForces> forces,
                           const Loads& loads) const {
   const auto none = [](const std::vector<Vec3>& all) {
