@@ -309,5 +309,20 @@ TEST(Run, SaysWhatAMeshDoesNotFollow) {
       << plain.err;
 }
 
+/// Frames of a longer run in the folder are no part of this one, which is said.
+TEST(Run, SaysWhatAnotherRunHasLeft) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  Json json = Json::parse(full_scene());
+  for (const int frames : {5, 3}) {
+    json["simulation"]["frames"] = frames;
+    json["simulation"].erase("outputs");
+    folder.write("scene.json", json.dump());
+    const Outcome outcome = folder.run("run scene.json --out a --no-pictures");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("from frame_0003.ply on") != std::string::npos, frames == 3) << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -160,6 +160,8 @@ int run(const RunArguments& options) {
   write_file_whole(options.out + "/summary.json", summary + "\n");
   tell(options, summary, scene, phases, report);
   extras.tell(options.json);
+  if (const std::string left = recorder.left_over(); !left.empty())
+    std::cerr << "tendril: note: " << options.out << " holds frames of another run, from " << left << " on\n";
   return report.stop == Stop::finished ? kDone : kNoSuccess;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace tendril::runner {
 namespace {
@@ -50,6 +51,11 @@ void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mes
   if (std::binary_search(numbers_.begin(), numbers_.end(), count_)) panels_.push_back(snapshot);
   last_ = snapshot;
   ++count_;
+}
+
+std::string Recorder::left_over() const {
+  const std::string next = frame_name(count_);
+  return std::filesystem::exists(options_.folder + "/" + next) ? next : std::string();
 }
 
 void Recorder::look(const scene::Snapshot& snapshot) {

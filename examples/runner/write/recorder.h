@@ -27,6 +27,8 @@ class Recorder {
   void take(const scene::Snapshot& snapshot, const scene::BoundMesh* mesh);
 
   std::size_t taken() const { return count_; }
+  /// The first frame in the folder beyond those of this run, which another has left there; empty for none.
+  std::string left_over() const;
   const std::vector<std::string>& files() const { return files_; }
   /// Those of the contact sheet.
   const std::vector<scene::Snapshot>& panels() const { return panels_; }
