@@ -97,9 +97,10 @@ OrderedJson to_json(const bind::JudgeReport& report, const bind::Distortion& dis
 void print_row(const char* name, const bind::JudgeReport& report, const bind::Distortion& distortion) {
   std::printf("%-11s %s\n", name, verdict_of(report, distortion));
   std::printf(
-      "  %.2g %% of the mesh spoilt: %zu triangle(s) folded, %zu stretched and %zu crushed more than "
-      "tenfold\n",
-      100.0 * distortion.spoilt, distortion.folded, distortion.stretched, distortion.crushed);
+      "  %.2g %% of the mesh spoilt (up to %.2g %% is right): %zu triangle(s) folded, %zu stretched and %zu "
+      "crushed more than tenfold\n",
+      100.0 * distortion.spoilt, 100.0 * kMostSpoilt, distortion.folded, distortion.stretched,
+      distortion.crushed);
   for (std::size_t k = 0; k < std::min<std::size_t>(5, distortion.zones.size()); ++k) {
     const bind::SpoiltZone& zone = distortion.zones[k];
     std::printf("    %.2g %% about %g %g %g, radius %.3g\n", 100.0 * zone.area, zone.centre.x(),
