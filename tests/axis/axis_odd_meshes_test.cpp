@@ -6,6 +6,9 @@
 #include <tendril/base/error.h>
 #include <tendril/bind/import.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace tendril::test {
 namespace {
 
@@ -67,6 +70,41 @@ TEST(AxisOfOddMeshes, RunsThroughACylinderWithPointsOnItsLidsOnly) {
   // Nearer to either lid than the radius the middle of the body is no line.
   EXPECT_GE(reach.to - reach.from, 0.95 * (high - low - 1.0));
   EXPECT_LE(reach.off, 0.05);
+}
+
+/// Of triangles far finer round than along, and finer than the flow's own edges: without even ones in their
+/// stead the axis turned back at both ends, 0.6 radii off.
+TEST(AxisOfOddMeshes, RunsThroughACylinderOfTrianglesThatAreTooFine) {
+  constexpr std::uint32_t kRings = 60, kRound = 300;
+  bind::PolygonMesh mesh;
+  const auto face = [&](std::initializer_list<std::uint32_t> corners) {
+    mesh.corners.insert(mesh.corners.end(), corners);
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  };
+  for (std::uint32_t i = 0; i <= kRings; ++i)
+    for (std::uint32_t k = 0; k < kRound; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / kRound;
+      mesh.points.emplace_back(0.5 * std::cos(turn), 0.5 * std::sin(turn), 10.0 * i / kRings);
+    }
+  mesh.points.emplace_back(0, 0, 0);
+  mesh.points.emplace_back(0, 0, 10);
+  const std::uint32_t foot = kRound * (kRings + 1), top = kRound * kRings;
+  for (std::uint32_t k = 0; k < kRound; ++k) {
+    const std::uint32_t next = (k + 1) % kRound;
+    for (std::uint32_t i = 0; i < kRings; ++i) {
+      const std::uint32_t a = i * kRound + k, b = i * kRound + next, c = b + kRound, d = a + kRound;
+      face({a, b, c});
+      face({a, c, d});
+    }
+    face({foot, next, k});
+    face({foot + 1, top + k, top + next});
+  }
+  const axis::AxisTree tree = axis::find_axis(mesh, {});
+  ASSERT_EQ(tree.status, axis::AxisStatus::found) << tree.reason;
+  ASSERT_EQ(tree.curves.size(), 1U);
+  const Reach reach = reach_of(tree.curves[0]);
+  EXPECT_GE(reach.to - reach.from, 0.95 * 9.0);
+  EXPECT_LE(reach.off, 0.025);
 }
 
 TEST(AxisOfOddMeshes, IsThatOfTheTurnedMesh) {

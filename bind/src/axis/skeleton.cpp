@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
 
 #include <algorithm>
 #include <chrono>
@@ -99,6 +100,38 @@ Contraction run(Flow& flow, const Watch& watch, int& steps) {
   }
 }
 
+/// The flow first collapses edges shorter than 0.002 of the diagonal; where most of a mesh has such, what
+/// that leaves is uneven, and the skeleton strays or shrinks away.
+constexpr double kFine = 2e-3, kLeastEdge = 3e-3, kTriangles = 2e4;
+
+bool mostly_fine(const bind::PolygonMesh& mesh, double diagonal, double& whole) {
+  double fine = 0.0;
+  whole = 0.0;
+  for (const auto& [i, j, k] : bind::fan_triangles(mesh)) {
+    const Vec3 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    whole += area;
+    if (std::min({(b - a).norm(), (c - b).norm(), (a - c).norm()}) < kFine * diagonal) fine += area;
+  }
+  return fine > 0.5 * whole;
+}
+
+/// Such a mesh anew, with even triangles on the same surface [Botsch, Kobbelt 2004]; as it is where that
+/// leaves any without area.
+void make_even(const bind::PolygonMesh& mesh, CgalMesh& of) {
+  const double diagonal = bind::bounding_diagonal(mesh.points);
+  double whole = 0.0;
+  if (!mostly_fine(mesh, diagonal, whole)) return;
+  const double edge = std::max(kLeastEdge * diagonal, std::sqrt(4.0 / std::sqrt(3.0) * whole / kTriangles));
+  namespace processing = CGAL::Polygon_mesh_processing;
+  CgalMesh even = of;
+  processing::isotropic_remeshing(faces(even), edge, even, CGAL::parameters::number_of_iterations(3));
+  even.collect_garbage();
+  for (const auto face : faces(even))
+    if (!(processing::face_area(face, even) > 0.0)) return;
+  if (CGAL::is_closed(even)) of = std::move(even);
+}
+
 Skeleton sorted(const Flow::Skeleton& graph) {
   Skeleton out;
   const auto at = [&](std::size_t v) {
@@ -129,7 +162,8 @@ Contracted contract(const bind::PolygonMesh& mesh, double seconds) {
   const Watch watch(seconds);
   Kernel kernel;
   kernel.watch = &watch;
-  const CgalMesh input = to_cgal(mesh);
+  CgalMesh input = to_cgal(mesh);
+  make_even(mesh, input);
   Contracted out{Contraction::converged, 0, {}};
   try {
     Flow flow(input, kernel);
