@@ -40,14 +40,16 @@ void add_derivatives(const PairModel& model, const StateView& state, const PairT
 /// The nodes between which points hang that are in the range of each other.
 LocalCouplings acting_at(const PairModel& model, const StateView& state) {
   LocalCouplings result;
+  Couplings::Pair last{~std::size_t{0}, 0};
   each_touch(model, state, model.lines.positions(state), ledger_of(state.memory),
              [&](const PairTouch& touch) {
                const std::size_t e = shares_of(model, state, touch.at.first).node;
                const std::size_t f = shares_of(model, state, touch.at.second).node;
-               if (!result.pairs.empty() && result.pairs.back() == Couplings::Pair(e + 1, f + 1)) return;
+               // Points of two edges follow each other.
+               const Couplings::Pair here(e, f);
+               if (std::exchange(last, here) == here) return;
                const Couplings all = Couplings::among({e, e + 1, f, f + 1});
                result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
-               result.pairs.emplace_back(e + 1, f + 1);
              });
   return result;
 }
