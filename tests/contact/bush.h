@@ -14,11 +14,13 @@ class Bush {
   Sheets sheets;
   std::size_t points_each = 0;
 
-  Bush(Random& random, std::size_t leaves, std::uint32_t along, std::uint32_t across, double apart)
+  /// \param stiffer  times as stiff as a plant's
+  Bush(Random& random, std::size_t leaves, std::uint32_t along, std::uint32_t across, double apart,
+       double stiffer = 1.0)
       : apart_(apart), one_(leaf(kLength, kHalf, along, across)) {
     const std::vector<Vec3> p = straight(4, kLength);
-    Rod rod = make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.01), {5e5, 1.7e5, 400.0},
-                       circular_section(0.003));
+    Rod rod = make_rod(p, orientation_towards(p, Vec3::UnitZ(), 0.01),
+                       {stiffer * 5e5, stiffer * 1.7e5, 400.0}, circular_section(0.003));
     for (double& width : rod.width) width = 0.03;
     // Of a blade as wide as that, not of the thin rod.
     for (std::size_t i = 0; i < rod.mass.size(); ++i) rod.inertia[i] = rod.mass[i] * 0.03 * 0.03 / 12.0;

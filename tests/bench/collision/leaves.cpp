@@ -1,5 +1,6 @@
 // Leaves that touch each other in wind: seconds of one thread for a second of motion, and pairs of triangles
-// that meet at its end, exactly. Arguments: leaves, triangles along a leaf, seconds.
+// that meet at its end, exactly. Arguments: leaves, triangles along a leaf, seconds, a method by its name
+// (Cash-Karp without one), and how many times as stiff as plants they are.
 #include <tendril/contact/surface_self_contact.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
@@ -23,10 +24,19 @@ struct Sums {
   double least = std::numeric_limits<double>::infinity();
 };
 
-int bench(std::size_t leaves, std::uint32_t along, double seconds, bool contact) {
+struct Asked {
+  std::size_t leaves = 200;
+  std::uint32_t along = 25;
+  double seconds = 1.0;
+  Method method = Method::cash_karp;
+  double stiffer = 1.0;
+};
+
+int bench(const Asked& asked, bool contact) {
+  const auto [leaves, along, seconds, method, stiffer] = asked;
   test::Random random(1);
   const double skin = 4e-4, range = 8e-4;
-  const test::Bush bush(random, leaves, along, 5, 0.006);
+  const test::Bush bush(random, leaves, along, 5, 0.006, stiffer);
   const contact::ContactSurface surface = bush.sheets.surface(skin);
   Scene scene;
   scene.rods = bush.sheets.rods;
@@ -43,7 +53,7 @@ int bench(std::size_t leaves, std::uint32_t along, double seconds, bool contact)
   wind.gust_frequency = 2.0;
   scene.forces.push_back(std::make_shared<Wind>(wind));
   const System system(scene);
-  Simulation simulation(system, system.rest_state(), {.method = Method::cash_karp, .tolerance = 1e-3});
+  Simulation simulation(system, system.rest_state(), {.method = method, .tolerance = 1e-3});
   Sums sums;
   simulation.on_progress([&](double) {
     ++sums.steps;
@@ -86,8 +96,19 @@ int bench(std::size_t leaves, std::uint32_t along, double seconds, bool contact)
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, double otherwise) { return i < argc ? std::atof(argv[i]) : otherwise; };
-  const auto leaves = static_cast<std::size_t>(number(1, 200));
-  const auto along = static_cast<std::uint32_t>(number(2, 25));
-  tendril::bench(leaves, along, number(3, 1.0), false);
-  return tendril::bench(leaves, along, number(3, 1.0), true);
+  tendril::Asked asked;
+  asked.leaves = static_cast<std::size_t>(number(1, 200));
+  asked.along = static_cast<std::uint32_t>(number(2, 25));
+  asked.seconds = number(3, 1.0);
+  if (argc > 4) {
+    const tendril::MethodInfo* found = tendril::find_method(argv[4]);
+    if (!found) {
+      std::fprintf(stderr, "%s: no such method\n", argv[4]);
+      return 2;
+    }
+    asked.method = found->method;
+  }
+  asked.stiffer = number(5, 1.0);
+  tendril::bench(asked, false);
+  return tendril::bench(asked, true);
 }
