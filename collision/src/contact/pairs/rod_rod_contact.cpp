@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "contact/couple.h"
 #include "pair_model.h"
 
 namespace tendril::contact {
@@ -48,8 +49,7 @@ LocalCouplings acting_at(const PairModel& model, const StateView& state) {
                // Points of two edges follow each other.
                const Couplings::Pair here(e, f);
                if (std::exchange(last, here) == here) return;
-               const Couplings all = Couplings::among({e, e + 1, f, f + 1});
-               result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+               couple({e, e + 1, f, f + 1}, result);
              });
   return result;
 }

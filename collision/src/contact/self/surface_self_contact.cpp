@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/couple.h"
 #include "contact/surfaces/surface_nodes.h"
 #include "posed_self.h"
 
@@ -53,12 +54,8 @@ LocalCouplings acting_at(const SelfModel& model, const StateView& state) {
   LocalCouplings result;
   for (const std::vector<std::uint32_t>& rods : near->together) {
     std::vector<std::size_t> nodes;
-    for (const std::uint32_t rod : rods) {
-      const NodeRange& range = state.rods[model.points().rods()[rod]];
-      for (std::size_t i = range.first; i < range.first + range.count; ++i) nodes.push_back(i);
-    }
-    const Couplings all = Couplings::among(nodes);
-    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+    for (const std::uint32_t rod : rods) add_nodes(state.rods[model.points().rods()[rod]], nodes);
+    couple(nodes, result);
   }
   result.add = [&model, near](const StateView& beside, const Loads& loads) {
     const SelfLedger* at = self_ledger_of(beside.memory);

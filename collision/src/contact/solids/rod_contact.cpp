@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/couple.h"
 #include "touch.h"
 
 namespace tendril::contact {
@@ -22,8 +23,7 @@ LocalCouplings acting_at(const RodModel& model, const StateView& state) {
     std::vector<std::size_t> nodes{at.node, at.node + 1};
     if (const auto& body = model.colliders[at.near.collider].body)
       for (const std::size_t turn : {0, 1}) nodes.push_back(state.p.size() + 2 * *body + turn);
-    const Couplings all = Couplings::among(nodes);
-    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
+    couple(nodes, result);
   });
   return result;
 }

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "contact/couple.h"
 #include "surface_nodes.h"
 #include "surface_touch.h"
 
@@ -82,16 +83,12 @@ LocalCouplings acting_at(const SurfaceModel& model, const StateView& state) {
     for (const std::uint32_t span : patch->spans)
       rods.insert(model.points().rods()[model.laid.spans[span].pair]);
     std::vector<std::size_t> nodes;
-    for (const std::size_t rod : rods)
-      for (std::size_t i = 0; i < state.rods[rod].count; ++i) nodes.push_back(state.rods[rod].first + i);
+    for (const std::size_t rod : rods) add_nodes(state.rods[rod], nodes);
     if (const auto& body = model.colliders[collider].body)
       for (const std::size_t turn : {0, 1}) nodes.push_back(state.p.size() + 2 * *body + turn);
     together.insert(std::move(nodes));
   }
-  for (const std::vector<std::size_t>& nodes : together) {
-    const Couplings all = Couplings::among(nodes);
-    result.pairs.insert(result.pairs.end(), all.pairs().begin(), all.pairs().end());
-  }
+  for (const std::vector<std::size_t>& nodes : together) couple(nodes, result);
   result.add = [&model, near](const StateView& beside, const Loads& loads) {
     const SurfaceLedger* at = surface_ledger_of(beside.memory);
     PosedSurface there(model, beside, at, *near);

@@ -8,8 +8,7 @@ namespace tendril::contact {
 
 std::vector<std::size_t> nodes_of(const RodPoints& points, std::span<const NodeRange> rods) {
   std::vector<std::size_t> all;
-  for (const std::size_t rod : points.rods())
-    for (std::size_t i = rods[rod].first; i < rods[rod].first + rods[rod].count; ++i) all.push_back(i);
+  for (const std::size_t rod : points.rods()) add_nodes(rods[rod], all);
   return all;
 }
 
