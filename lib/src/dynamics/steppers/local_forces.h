@@ -1,9 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "dynamics/coupling/coupled_nodes.h"
+#include "dynamics/coupling/elimination.h"
 #include "dynamics/rhs/rates.h"
 #include "stiff_solver.h"
 
@@ -12,6 +13,7 @@ namespace tendril {
 /// What the forces whose couplings are said at states do at one.
 struct LocalForces {
   NodePairs pairs;  ///< of nodes, or more, under those that carry them; ascending, each once
+  std::optional<BlockPattern> pattern;               ///< of the equations with these, complete
   std::vector<std::vector<std::size_t>> neighbours;  ///< for Differences; empty where none is needed
   std::vector<Undifferentiated> undifferentiated;
 };

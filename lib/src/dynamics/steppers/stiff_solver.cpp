@@ -97,7 +97,7 @@ class BlockSolver : public StiffSolver {
         loaded_(depends_on_state(model_)),
         rates_matter_(B == 4 || loaded_ || !model_.bodies.empty()),
         timed_(depends_on_time(model_)),
-        pattern_(pattern_of_equations(model_, local ? local->pairs : NodePairs{})),
+        pattern_(local ? *local->pattern : pattern_of_equations(model_)),
         by_x_(pattern_, !rates_matter_),
         to_x_(by_x_),
         matrix_(pattern_, !rates_matter_),

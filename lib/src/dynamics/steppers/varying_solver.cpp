@@ -90,7 +90,8 @@ class VaryingSolver : public StiffSolver {
 
   Evaluation make() {
     solver_.reset();
-    if (!local_.pairs.empty() && !pattern_of_equations(model_, local_.pairs).complete())
+    local_.pattern = pattern_of_equations(model_, local_.pairs);
+    if (!local_.pattern->complete())
       return {Evaluation::Outcome::coupled_too_far, local_.pairs.front().first};
     local_.neighbours.clear();
     if (differs_) {

@@ -29,17 +29,11 @@ RodPoints::RodPoints(RodCurves curves, std::vector<std::size_t> rods,
 }
 
 std::vector<CurvePair> RodPoints::pairs(const StateView& state) const {
-  std::vector<CurvePair> result;
-  if (!fits(state.p)) return result;
-  for (const std::size_t rod : rods_) result.push_back(curves_.pair(state, rod));
-  return result;
+  return pairs(state, std::vector<bool>(rods_.size(), true));
 }
 
 std::vector<CurvePair> RodPoints::rates(const StateView& state) const {
-  std::vector<CurvePair> result;
-  if (!fits(state.v) || !fits(state.turn)) return result;
-  for (const std::size_t rod : rods_) result.push_back(curves_.rates(state, rod));
-  return result;
+  return rates(state, std::vector<bool>(rods_.size(), true));
 }
 
 namespace {
