@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tendril/dynamics/couplings.h>
+#include <tendril/dynamics/force.h>
 
 namespace tendril::contact {
 
