@@ -3,6 +3,7 @@
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/statics.h>
 
+#include "memory.h"
 #include "support/numbers.h"
 #include "support/rods.h"
 
@@ -35,7 +36,7 @@ struct Pressed {
 };
 Pressed pressed_in(const Equilibrium& found) {
   Pressed out;
-  for (const Contact& c : dynamic_cast<const ContactMemory&>(*found.state.memory.at(0)).contacts) {
+  for (const Contact& c : test::memory_of(found.state).contacts) {
     out.force -= c.force.z();
     out.height -= c.force.z() * c.point.z();
   }

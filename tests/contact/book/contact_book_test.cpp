@@ -4,6 +4,7 @@
 #include <tendril/dynamics/simulation.h>
 #include <tendril/dynamics/statics.h>
 
+#include "memory.h"
 #include "support/numbers.h"
 #include "support/rods.h"
 
@@ -13,10 +14,7 @@ namespace tendril::contact {
 namespace {
 
 using tendril::test::kPi;
-
-const ContactMemory& memory_of(const State& state, std::size_t force = 0) {
-  return dynamic_cast<const ContactMemory&>(*state.memory.at(force));
-}
+using test::memory_of;
 
 Vec3 place(const State& state, std::size_t node) {
   return state.y.segment<3>(static_cast<Eigen::Index>(3 * node));
@@ -30,7 +28,7 @@ void set_velocity(State& state, std::size_t nodes, const Vec3& v) {
 
 /// A rod of two masses of 1/2 and of weight 1 that moves as one.
 Rod bar() {
-  Rod rod = test::straight_rod(1, 1e4, 0.05);
+  Rod rod = tendril::test::straight_rod(1, 1e4, 0.05);
   rod.mass = {0.5, 0.5};
   return rod;
 }
@@ -184,7 +182,7 @@ TEST(ContactBook, FrictionBringsASpringToRestOffItsMiddle) {
 double clamp_force(int edges, double range) {
   const double q = 1.0, h = 1e-3, length = 1.0, ratio = 200.0;
   const double bending = q * std::pow(length, 4) / (h * ratio);
-  Rod rod = test::straight_rod(edges, 1.0, 0.01);
+  Rod rod = tendril::test::straight_rod(edges, 1.0, 0.01);
   const double area = kPi * 1e-4, inertia = kPi * 1e-8 / 4;
   const double young = bending / inertia;
   rod = make_rod(rod.p, rod.q, {young, young / 3, q / area}, circular_section(0.01));
@@ -209,73 +207,6 @@ TEST(ContactBook, AHeavyCantileverLiesDownAlongALine) {
   EXPECT_GE(std::log2(off(16) / off(32)), 1.8);
 }
 
-/// A chain that is drawn over a drum by half a turn, its other end pulled by 1: the ratio of the tensions.
-double capstan(int edges, double mu, double range) {
-  const double drum = 1.0, radius = 0.01, tail = 0.2, pull = 1.0;
-  Law law{.stiffness = 1.0, .range = range, .friction = mu};
-  law.stiffness = pull / drum / -potential({.stiffness = 1.0, .range = range}, 0.5 * range).slope;
-  law.stick_stiffness = 1e4;
-  const double at = drum + radius + 0.5 * range, whole = kPi * at + 2 * tail;
-  const double corner = at / std::cos(0.5 * whole / edges / at);  // edges touch with their middles
-  std::vector<Vec3> p, q;
-  for (int i = 0; i <= edges; ++i) {
-    const double s = whole * i / edges - tail, turn = std::clamp(s / at, 0.0, kPi);
-    const double beyond = s < 0.0 ? s : std::max(0.0, s - kPi * at);
-    const Vec3 out(-std::cos(turn), 0, std::sin(turn)), along(std::sin(turn), 0, std::cos(turn));
-    p.push_back(corner * out + beyond * along);
-    q.push_back(p.back() + 0.1 * Vec3::UnitY());
-  }
-  const double area = kPi * radius * radius;
-  Rod rod = make_rod(p, q, {1e5 / area, 1e5 / area / 3, 0.01 / area}, circular_section(radius));
-  for (auto* springs : {&rod.bend_l, &rod.bend_m, &rod.twist})
-    for (double& k : *springs) k *= 1e-3;
-  rod.mass_damping = 5.0;
-  rod.viscosity = 1e-3;
-  Scene scene;
-  scene.rods = {rod};
-  Anchor hand{.rod = 0, .node = static_cast<std::size_t>(edges), .holds_frame = false};
-  const Vec3 from = p.back();
-  hand.motion = [from](double t) {
-    AnchorPose pose;
-    pose.position = from + Vec3(0, 0, -0.002 * t);
-    pose.velocity = Vec3(0, 0, -0.002);
-    return pose;
-  };
-  scene.anchors.push_back(hand);
-  scene.forces = {
-      std::make_shared<RodContact>(
-          std::vector<ContactRod>{{0, radius, p}},
-          std::vector<Collider>{{"drum",
-                                 cylinder(drum, std::numeric_limits<double>::infinity()),
-                                 {.rotation = Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix()}}},
-          law),
-      std::make_shared<PointLoad>(PointLoad::Kind::force, 0, 0, Vec3(0, 0, -pull), Signal::constant(1.0))};
-  const System system(scene);
-  Simulation simulation(system, system.rest_state(), within(1e-5, Method::rodas));
-  // Friction goes by what a step slid: the mean of ten instants hangs on no single step.
-  double mean = 0.0;
-  for (int k = 1; k <= 10; ++k) {
-    const Report report = simulation.run(20.0 + 0.1 * k);
-    EXPECT_EQ(report.stop, Stop::finished) << report.reason;
-    const ContactMemory& memory = memory_of(simulation.state());
-    EXPECT_LT(memory.friction_work, 0.0);
-    Vec3 sum(0, 0, -pull);
-    for (const Contact& c : memory.contacts) sum += c.force;
-    EXPECT_TRUE(std::none_of(memory.contacts.begin(), memory.contacts.end(),
-                             [](const Contact& c) { return c.sticks; }));
-    mean += sum.z() / pull / 10;
-  }
-  return mean;
-}
-
-TEST(ContactBook, AChainOverADrumObeysTheCapstanEquation) {
-  const auto off = [](int edges) { return capstan(edges, 0.3, 1e-3) / std::exp(0.3 * kPi) - 1.0; };
-  const double coarse = off(16), middle = off(32), fine = off(64);
-  std::cout << "capstan, ratio off by " << coarse << ", " << middle << ", " << fine << "\n";
-  EXPECT_GE(std::log2(std::abs(coarse / middle)), 1.8);
-  EXPECT_NEAR(fine, 0.0, 1e-3);
-}
-
 /// P a^2 / B of a beam bent over two supports that it slides on, a apart from the load on either side, where
 /// it meets them at an angle: cos al [int_0^al cos th / sqrt(sin(al - th)) dth]^2, the root taken out.
 double three_points(double angle) {
@@ -292,7 +223,7 @@ double three_points(double angle) {
 /// force, place and angle are off each other.
 double off_three_points(int edges, double lift) {
   const double length = 1.4, radius = 2e-3, pin = 2e-3, gap = 5e-4;
-  Rod rod = test::straight_rod(edges, 1.0, radius);
+  Rod rod = tendril::test::straight_rod(edges, 1.0, radius);
   for (Vec3& p : rod.p) p *= length;
   for (Vec3& q : rod.q) q.x() *= length;
   const double inertia = kPi * std::pow(radius, 4) / 4, bending = 1.0;
@@ -338,7 +269,7 @@ TEST(ContactBook, ABeamBendsOverSupportsThatItSlidesOn) {
 TEST(ContactBook, ARodDrawnOverARoughFloorGivesWayAsFarAsFrictionLets) {
   const double mu = 0.5, weight = 4.0, pull = 1.0, tension = 100.0, radius = 0.02;
   const auto given_way = [&](int edges) {
-    Rod rod = test::straight_rod(edges, 1.0, radius);
+    Rod rod = tendril::test::straight_rod(edges, 1.0, radius);
     const double area = kPi * radius * radius;
     rod =
         make_rod(rod.p, rod.q, {tension / area, tension / area / 3, weight / area}, circular_section(radius));
