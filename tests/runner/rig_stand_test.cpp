@@ -62,7 +62,8 @@ TEST(Rig, MeasuresTheLargestPartAlone) {
   bind::write_mesh(folder / "two.off", mesh);
   const Outcome outcome = folder.run("rig two.off --largest-part --out s.json --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const double a : Json::parse(outcome.out)["curves"][0]["a"]) EXPECT_NEAR(a, 0.2, 0.01);
+  const Json json = Json::parse(outcome.out);
+  for (const double a : json["curves"][0]["a"]) EXPECT_NEAR(a, 0.2, 0.01);
 }
 
 /// A ring's axis is cut open, which is said; its sections are seen all the way round.

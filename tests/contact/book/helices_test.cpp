@@ -1,0 +1,228 @@
+#include <gtest/gtest.h>
+#include <tendril/contact/rod_contact.h>
+#include <tendril/contact/rod_rod_contact.h>
+#include <tendril/dynamics/statics.h>
+
+#include "memory.h"
+#include "support/numbers.h"
+#include "support/rods.h"
+
+/// Rods that lie in helices: within a tube, and about each other.
+namespace tendril::contact {
+namespace {
+
+using test::memory_of;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+using tendril::test::kPi;
+
+/// A helix of radius 1 about z: the angle of its tangent with z, and where it is and goes at an arc length.
+struct Helix {
+  double angle, phase = 0.0;
+
+  Vec3 at(double s) const {
+    const double turn = phase + s * std::sin(angle);
+    return {std::cos(turn), std::sin(turn), s * std::cos(angle)};
+  }
+  Frame frame(double s) const {
+    const double turn = phase + s * std::sin(angle);
+    const Vec3 t(-std::sin(turn) * std::sin(angle), std::cos(turn) * std::sin(angle), std::cos(angle));
+    const Vec3 m(std::cos(turn), std::sin(turn), 0);
+    return {m.cross(t), m, t};
+  }
+};
+
+/// What a rod in a tube bears, pressed into a helix of one turn: its end's force along the axis, F r^2 / B, and
+/// that of the tube a length, N r^3 / B, in its middle half. Its ends hold each other by a torque about the
+/// axis, which should be 0.
+struct InTube {
+  double force, push, torque;
+};
+InTube in_tube(const Helix& helix, int edges, double longer) {
+  const double length = 1.5 * kPi / std::sin(helix.angle), radius = 0.02, range = 4e-3;
+  std::vector<Vec3> p, q;
+  for (int i = 0; i <= edges; ++i) {
+    p.emplace_back(1, 0, (1.0 + longer) * (helix.at(length / edges) - helix.at(0)).norm() * i);
+    q.push_back(p.back() + 0.1 * Vec3::UnitX());
+  }
+  const double inertia = kPi * std::pow(radius, 4) / 4;
+  Rod rod = make_rod(p, q, {1.0 / inertia, 1.0 / inertia / 3, 1.0}, circular_section(radius));
+  for (double& k : rod.twist) k *= 1e-6;
+  Scene scene;
+  scene.rods = {rod};
+  for (const std::size_t node : {std::size_t{0}, static_cast<std::size_t>(edges)}) {
+    Anchor end{.rod = 0, .node = node};
+    // Where it rests at first, as a scene asks; the search begins with the helix.
+    end.motion = [=](double t) {
+      const double s = length * static_cast<double>(node) / edges;
+      AnchorPose pose;
+      pose.position = t < 1.0 ? p[node] : helix.at(s);
+      pose.frame = t < 1.0 ? Frame{-Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ()} : helix.frame(s);
+      return pose;
+    };
+    scene.anchors.push_back(end);
+  }
+  Law law{.stiffness = 1.0, .range = range};
+  law.stiffness = std::pow(std::sin(helix.angle), 4) / -potential(law, 0.5 * range).slope;
+  const Collider solid{"tube", tube(1.0 + radius + 0.5 * range, kInfinite, kInfinite), {}};
+  scene.forces = {std::make_shared<RodContact>(std::vector<ContactRod>{{0, radius, p}},
+                                               std::vector<Collider>{solid}, law)};
+  const System system(scene);
+  State start = system.rest_state();
+  start.time = 1.0;
+  for (int i = 0; i <= edges; ++i) start.y.segment<3>(3 * i) = helix.at(length * i / edges);
+  const Equilibrium found = find_equilibrium(system, start, {.first_load = 1.0});
+  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  InTube out{found.support[0].z(), 0.0, found.torque[0].z() + helix.at(0).cross(found.support[0]).z()};
+  for (const Contact& c : memory_of(found.state).contacts) {
+    const double at = static_cast<double>(c.node) + c.fraction + 0.5;
+    if (at > 0.25 * edges && at < 0.75 * edges) out.push += c.force.norm() / (0.5 * length);
+  }
+  const double wide = found.state.y.segment<2>(3 * (edges / 2)).norm();
+  out.force *= wide * wide;
+  out.push *= wide * wide * wide;
+  return out;
+}
+
+/// The same of a rod so long that its ends do not hold each other.
+InTube free_in_tube(const Helix& helix, int edges) {
+  double before = 0.0, longer = 2e-5;
+  InTube at_before = in_tube(helix, edges, before), at = in_tube(helix, edges, longer);
+  for (int k = 0; k < 6 && std::abs(at.torque) > 1e-8; ++k) {
+    const double next = longer - at.torque * (longer - before) / (at.torque - at_before.torque);
+    before = longer, at_before = at, longer = next;
+    at = in_tube(helix, edges, longer);
+  }
+  EXPECT_LT(std::abs(at.torque), 1e-8);
+  return at;
+}
+
+TEST(ContactBook, AHelixInATube) {
+  const double angle = 20 * kPi / 180, force = 2 * std::pow(std::sin(angle), 2) * std::cos(angle),
+               push = std::pow(std::sin(angle), 4);
+  EXPECT_NEAR(force, 0.219846, 1e-6);
+  EXPECT_NEAR(push, 0.0136838, 1e-7);
+  const InTube coarse = free_in_tube({angle}, 32), fine = free_in_tube({angle}, 64);
+  const auto off = [](double a, double b) { return std::abs(a / b - 1.0); };
+  std::cout << "helix in a tube, force off by " << off(coarse.force, force) << ", " << off(fine.force, force)
+            << ", push by " << off(coarse.push, push) << ", " << off(fine.push, push) << "\n";
+  EXPECT_LE(off(fine.force, force), 1e-3);
+  EXPECT_LE(off(fine.push, push), 1e-3);
+  EXPECT_GE(std::log2(off(coarse.force, force) / off(fine.force, force)), 1.8);
+  EXPECT_GE(std::log2(off(coarse.push, push) / off(fine.push, push)), 1.8);
+}
+
+/// Two rods that lie about each other: what each bears at an end, in all along the axis and about it, and the
+/// moment about its tangent; and how they press on each other a length. Over B and powers of half their distance.
+struct Ply {
+  double force, torque, twist, push;
+  double radius;  ///< of their lines' helix, in their middle
+};
+/// \param longer  by which share they are at rest than between their ends
+/// \param turn    of the one end's frame against the other's, carried along
+Ply two_ply(const Helix& helix, int edges, double longer, double turn, double thicker) {
+  const double length = 0.3 * kPi / std::sin(helix.angle), range = 4e-3;
+  // Edges touch with their middles.
+  const double radius = std::cos(0.15 * kPi / edges) - 0.25 * range + thicker;
+  const double c = std::cos(helix.angle), s = std::sin(helix.angle);
+  const double push = std::pow(s, 4) / std::cos(2 * helix.angle);
+  Scene scene;
+  std::vector<ContactRod> rods;
+  std::array<Helix, 2> helices{helix, {helix.angle, kPi}};
+  for (std::size_t r = 0; r < 2; ++r) {
+    std::vector<Vec3> p, q;
+    for (int i = 0; i <= edges; ++i) {
+      p.push_back(helices[r].at(0) +
+                  (1.0 + longer) * (helix.at(length / edges) - helix.at(0)).norm() * i * Vec3::UnitZ());
+      q.push_back(p.back() + 0.1 * helices[r].at(0));
+    }
+    const double inertia = kPi / 4;
+    Rod rod = make_rod(p, q, {1.0 / inertia, 1.0 / inertia / 3, 1.0}, circular_section(1.0));
+    for (double& k : rod.stretch) k *= 1e4;
+    for (double& k : rod.twist) k *= 100.0;
+    scene.rods.push_back(rod);
+    rods.push_back({r, radius, p});
+    for (const std::size_t node : {std::size_t{0}, static_cast<std::size_t>(edges)}) {
+      Anchor end{.rod = r, .node = node};
+      end.motion = [=, at = helices[r]](double t) {
+        const double way = length * static_cast<double>(node) / edges;
+        AnchorPose pose;
+        pose.position = t < 1.0 ? p[node] : at.at(way);
+        pose.frame = at.frame(way);
+        // Radial directors turn against those that are carried along by the torsion, s c.
+        const double by = -way * s * c + (node > 0 ? turn : 0.0);
+        pose.frame.y = rotate_about(pose.frame.z, by, pose.frame.y);
+        if (t < 1.0) pose.frame.z = Vec3::UnitZ(), pose.frame.y = at.at(0);
+        pose.frame.x = pose.frame.y.cross(pose.frame.z);
+        return pose;
+      };
+      scene.anchors.push_back(end);
+    }
+  }
+  Law law{.stiffness = 1.0, .range = range};
+  law.stiffness = push / -potential(law, 0.5 * range).slope;
+  scene.forces = {std::make_shared<RodRodContact>(rods, std::vector<RodJoint>{}, law)};
+  const System system(scene);
+  State start = system.rest_state();
+  start.time = 1.0;
+  const auto nodes = static_cast<Eigen::Index>(edges) + 1;
+  for (Eigen::Index r = 0; r < 2; ++r)
+    for (Eigen::Index i = 0; i < nodes; ++i)
+      start.y.segment<3>(3 * (r * nodes + i)) =
+          helices[static_cast<std::size_t>(r)].at(length * static_cast<double>(i) / edges);
+  // Directors carried from where they rest turn against those that are carried along, by the area between.
+  for (Eigen::Index i = 0; i < 2 * nodes; ++i)
+    start.y[12 * nodes + i] = (1.0 - c) * s * length * static_cast<double>(i % nodes) / edges;
+  const Equilibrium found = find_equilibrium(system, start, {.first_load = 1.0});
+  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  const Vec3 tangent = helix.frame(0).z;
+  Ply out{found.support[0].z(), found.torque[0].z() + helix.at(0).cross(found.support[0]).z(),
+          found.torque[0].dot(tangent), 0.0, found.state.y.segment<2>(3 * (edges / 2)).norm()};
+  const auto& memory = dynamic_cast<const RodRodMemory&>(*found.state.memory.at(0));
+  for (const RodTouch& touch : memory.touches) {
+    const double at = static_cast<double>(touch.node[0]) + touch.fraction[0];
+    if (at >= 0.375 * edges && at < 0.625 * edges)
+      out.push += std::hypot(touch.force.x(), touch.force.y()) / (0.25 * length);
+  }
+  return out;
+}
+
+/// The same where no end bears a force along the axis or a torque about it, and all lies on one helix.
+Ply balanced_ply(const Helix& helix, int edges) {
+  const Vec3 unit(1e-5, 1e-3, 1e-5);
+  const auto ply = [&](const Vec3& x) {
+    const Vec3 at = x.cwiseProduct(unit);
+    return two_ply(helix, edges, at.x(), at.y(), at.z());
+  };
+  const auto off = [](const Ply& at) { return Vec3(at.force, at.torque, at.radius - 1.0); };
+  Vec3 x(-0.3, -12.25, -0.3);
+  Ply at = ply(x);
+  Mat3 by;
+  for (Eigen::Index i = 0; i < 3; ++i) by.col(i) = off(ply(x + Mat3::Identity().col(i))) - off(at);
+  for (int k = 0; k < 12 && off(at).norm() > 1e-5; ++k) {
+    x -= by.inverse() * off(at);
+    at = ply(x);
+  }
+  EXPECT_LT(off(at).norm(), 1e-5);
+  return at;
+}
+
+TEST(ContactBook, ABalancedTwoPly) {
+  const double angle = 30 * kPi / 180, s = std::sin(angle), c = std::cos(angle);
+  const double push = std::pow(s, 4) / std::cos(2 * angle),
+               twist = 2 * std::pow(s, 3) * c / std::cos(2 * angle);
+  EXPECT_NEAR(push, 0.125, 1e-6);
+  EXPECT_NEAR(twist, 0.433013, 1e-6);
+  const auto off = [](double a, double b) { return std::abs(a / b - 1.0); };
+  const Ply coarse = balanced_ply({angle}, 16), middle = balanced_ply({angle}, 32),
+            fine = balanced_ply({angle}, 64);
+  std::cout << "two-ply, push off by " << off(coarse.push, push) << ", " << off(middle.push, push) << ", "
+            << off(fine.push, push) << ", twisting moment by " << off(coarse.twist, twist) << ", "
+            << off(middle.twist, twist) << ", " << off(fine.twist, twist) << "\n";
+  EXPECT_LE(off(fine.push, push), 2.5e-3);
+  EXPECT_LE(off(fine.twist, twist), 1e-3);
+  EXPECT_GE(std::log2(off(coarse.push, push) / off(middle.push, push)), 1.8);
+  EXPECT_GE(std::log2(off(coarse.twist, twist) / off(middle.twist, twist)), 1.8);
+}
+
+}  // namespace
+}  // namespace tendril::contact
