@@ -42,7 +42,8 @@ struct Drawn {
   std::array<double, 2> tail;  ///< lengths that hang down at first
 };
 
-/// What draws it, the mean of ten instants: friction goes by what a step slid, the mean hangs on no single one.
+/// What draws it, the mean of ten instants: friction goes by what a step slid, the mean hangs on no single
+/// one.
 Vec3 drawing_force(const Drawn& drawn, int edges) {
   const double radius = 0.01, range = 1e-3, pull = 1.0;
   Law law{.stiffness = 1.0, .range = range, .friction = drawn.friction, .stick_stiffness = 1e4};

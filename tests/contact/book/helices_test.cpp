@@ -31,9 +31,9 @@ struct Helix {
   }
 };
 
-/// What a rod in a tube bears, pressed into a helix of one turn: its end's force along the axis, F r^2 / B, and
-/// that of the tube a length, N r^3 / B, in its middle half. Its ends hold each other by a torque about the
-/// axis, which should be 0.
+/// What a rod in a tube bears, pressed into a helix of one turn: its end's force along the axis, F r^2 / B,
+/// and that of the tube a length, N r^3 / B, in its middle half. Its ends hold each other by a torque about
+/// the axis, which should be 0.
 struct InTube {
   double force, push, torque;
 };
@@ -112,7 +112,8 @@ TEST(ContactBook, AHelixInATube) {
 }
 
 /// Two rods that lie about each other: what each bears at an end, in all along the axis and about it, and the
-/// moment about its tangent; and how they press on each other a length. Over B and powers of half their distance.
+/// moment about its tangent; and how they press on each other a length. Over B and powers of half their
+/// distance.
 struct Ply {
   double force, torque, twist, push;
   double radius;  ///< of their lines' helix, in their middle

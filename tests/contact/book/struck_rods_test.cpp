@@ -82,8 +82,8 @@ TEST(ContactBook, ARodMeetsAWallEndOn) {
   }
 }
 
-/// v / V at a time of a mass that landed on a long beam of B = m = 1 and stays on it: e^(a^2 t) erfc(a sqrt(t)),
-/// a = 2 sqrt(2) (B m^3)^(1/4) / M = 1/2.
+/// v / V at a time of a mass that landed on a long beam of B = m = 1 and stays on it: e^(a^2 t) erfc(a
+/// sqrt(t)), a = 2 sqrt(2) (B m^3)^(1/4) / M = 1/2.
 double landed(int edges, double length, double time) {
   const double speed = 3e-3;
   const Law law{.stiffness = 1e7, .range = 1e-5, .damping = 1e4};

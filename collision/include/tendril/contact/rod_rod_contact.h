@@ -52,8 +52,8 @@ struct PairModel;  ///< rods laid out in points, and which pairs of them are lef
 /// could not have come to, is refused. Friction acts where the surfaces meet and turns rods: the scene keeps
 /// its twist state. Linear and angular momentum are kept.
 ///
-/// Implicit steps couple the nodes between which rods touch, equilibria all nodes of these rods, up to some
-/// 400; with friction, derivatives are differences.
+/// Implicit steps and equilibria couple the nodes between which rods touch; with friction, derivatives are
+/// differences.
 ///
 /// Cost of an evaluation: some ns an edge, some 5 ns a pair of edges that could be near, some 50 ns a pair of
 /// points in contact; of a search, now and then, n log n.

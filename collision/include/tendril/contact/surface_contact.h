@@ -59,8 +59,8 @@ struct SurfaceModel;  ///< the surface as points, in patches, and colliders
 /// points that they depend on, at this state and the last accepted one, widened by how far off the curves the
 /// vertices are. Where nothing is near, an evaluation costs some 2 ns a node and collider.
 ///
-/// Implicit steps take differences, by all nodes of the rods that hold what is in the range of a solid;
-/// equilibria by all nodes of all, up to some 400.
+/// Implicit steps and equilibria take differences, by all nodes of the rods that hold what is in the range of
+/// a solid.
 class TENDRIL_CONTACT_API SurfaceContact final : public Force {
  public:
   /// Throws InvalidInput for numbers out of range, indices out of range, a shape missing, a tube too narrow

@@ -64,8 +64,8 @@ class TENDRIL_CORE_API Couplings {
   /// spins, has no derivatives of this kind.
   Couplings with(Derivatives derivatives) &&;
 
-  /// The same, of which those that act are said at each state: implicit steps keep room for them alone.
-  /// Equilibria keep it for all that are named.
+  /// The same, of which those that act are said at each state: implicit steps and equilibria keep room for
+  /// them alone.
   Couplings at_states(Local local) &&;
 
   bool any() const { return reach_ || !pairs_.empty(); }       ///< the loads depend on the state

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/coupling/coupled_nodes.h"
-
 namespace tendril {
 namespace {
 
@@ -131,75 +129,6 @@ void StaticLoads::pull_back_turn(const NodeRange& rod, std::size_t node, const V
     force_[i + 1] += f;
     if (model.feels[i]) force_[model.carrier[i]] -= f;
   }
-}
-
-/// Greedy, by the nodes that springs and loads couple: two nodes of one colour share none of those.
-void StaticLoads::colour(const Eigen::SparseMatrix<double>& pattern) {
-  const std::size_t n = system_.node_count();
-  near_.assign(n, {});
-  for (Eigen::Index column = 0; column < 3 * static_cast<Eigen::Index>(n); column += 3)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(pattern, column); entry; ++entry)
-      if (entry.row() < 3 * static_cast<Eigen::Index>(n) && entry.row() % 3 == 0)
-        near_[static_cast<std::size_t>(column / 3)].push_back(static_cast<std::size_t>(entry.row() / 3));
-  for (const Model::Acting& acting : model_of(system_).acting)
-    for (const auto& [a, b] : coupled_by_force(model_of(system_), acting.couplings, true))
-      for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
-        if (auto& list = near_[to]; std::find(list.begin(), list.end(), from) == list.end())
-          list.push_back(from);
-  std::vector<std::size_t> colour_of(n, n);
-  std::vector<std::size_t> seen(n + 1, n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const std::size_t j : near_[i])
-      for (const std::size_t k : near_[j]) seen[colour_of[k]] = i;
-    std::size_t colour = 0;
-    while (seen[colour] == i) ++colour;
-    colour_of[i] = colour;
-    if (colour == colours_.size()) colours_.emplace_back();
-    colours_[colour].push_back(i);
-  }
-}
-
-Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q,
-                              System::Workspace& work) {
-  State there = state;
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const Eigen::Index place = coordinates_.in_gradient(k);
-    const auto n = static_cast<Eigen::Index>(system_.node_count());
-    const std::size_t node = coordinates_.node(k);
-    if (const Mat3* axes = coordinates_.axes(node); axes && coordinates_.axis(k) < 3)
-      there.y.segment<3>(3 * static_cast<Eigen::Index>(node)) += x[k] * axes->col(coordinates_.axis(k));
-    else
-      there.y[coordinates_.axis(k) == 3 ? place + 3 * n : place] += x[k];
-  }
-  double unused = 0.0;
-  return add(there, q, unused, work);
-}
-
-Evaluation StaticLoads::differentiate(const State& state, const Eigen::SparseMatrix<double>& pattern,
-                                      std::vector<Eigen::Triplet<double>>& out, System::Workspace& work) {
-  if (colours_.empty()) colour(pattern);
-  const double edge = coordinates_.length() / static_cast<double>(system_.node_count());
-  Eigen::VectorXd up, down;
-  for (const auto& nodes : colours_)
-    for (int axis = 0; axis < 4; ++axis) {
-      const double step = 1e-6 * (axis == 3 ? 1.0 : edge);
-      Eigen::VectorXd x = Eigen::VectorXd::Zero(coordinates_.size());
-      bool any = false;
-      for (const std::size_t i : nodes)
-        if (const Eigen::Index k = coordinates_.row(i, axis); k >= 0) x[k] = step, any = true;
-      if (!any) continue;
-      if (const Evaluation at = moved(state, x, up, work); !at.ok()) return at;
-      if (const Evaluation at = moved(state, -x, down, work); !at.ok()) return at;
-      for (const std::size_t i : nodes) {
-        const Eigen::Index column = coordinates_.row(i, axis);
-        if (column < 0) continue;
-        for (const std::size_t j : near_[i])
-          for (int b = 0; b < 4; ++b)
-            if (const Eigen::Index r = coordinates_.row(j, b); r >= 0 && up[r] != down[r])
-              out.emplace_back(r, column, (up[r] - down[r]) / (2 * step));
-      }
-    }
-  return {};
 }
 
 }  // namespace tendril

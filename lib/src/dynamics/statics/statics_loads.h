@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "dynamics/scene/model.h"
+#include "dynamics/coupling/coupled_nodes.h"
 #include "statics_coordinates.h"
 
 namespace tendril {
@@ -21,7 +21,8 @@ class StaticLoads {
   /// as dead loads.
   Evaluation add(const State& state, Eigen::VectorXd& q, double& potential, System::Workspace& work);
 
-  /// dq/dx by central differences, coloured by the pairs of nodes that springs and loads couple.
+  /// dq/dx: exact where a force says its derivatives, else by central differences, coloured by the pairs of
+  /// nodes that springs and these forces couple, at this state where they say so.
   /// \param pattern  of the elastic Hessian, in the order of System::elastic_gradient
   Evaluation differentiate(const State& state, const Eigen::SparseMatrix<double>& pattern,
                            std::vector<Eigen::Triplet<double>>& out, System::Workspace& work);
@@ -48,7 +49,14 @@ class StaticLoads {
   void pass_to_parents();
   void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q);
   void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent);
-  void colour(const Eigen::SparseMatrix<double>& pattern);
+  /// A force that differences are taken of, and its loads beside a state where it says them.
+  struct Differenced {
+    const Model::Acting* acting;
+    std::function<void(const StateView&, const Loads&)> beside;
+  };
+  void put_exact(const State& state, StateView& view, std::vector<Eigen::Triplet<double>>& out);
+  bool dead_torques(const State& state, StateView& view);
+  void colour(const Eigen::SparseMatrix<double>& pattern, NodePairs pairs);
   Evaluation moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q, System::Workspace& work);
 
   const System& system_;
@@ -58,6 +66,8 @@ class StaticLoads {
   double sum_ = 0.0;
   std::vector<double> mass_, width_, spin_;
   std::vector<Vec3> p_, v_, t_, m_, force_, torque_;
+  std::vector<Differenced> differenced_;           ///< at the last state
+  NodePairs coloured_;                             ///< what they coupled when near_ and colours_ were made
   std::vector<std::vector<std::size_t>> near_;     ///< per node, the nodes it couples with, itself too
   std::vector<std::vector<std::size_t>> colours_;  ///< nodes that feel nothing in common
 };

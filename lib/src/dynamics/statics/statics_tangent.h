@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
@@ -8,7 +9,8 @@
 namespace tendril {
 
 /// A tangent K scaled to S = D^-1/2 K D^-1/2, so that its eigenvalues are those of Stability, and factors of
-/// S + shift. Rows keep the order of StaticCoordinates: no fill on chains and trees.
+/// S + shift. Rows keep the order of StaticCoordinates, without fill on chains and trees, unless what touches
+/// fills the factors: then they are eliminated by minimum degree.
 class StaticTangent {
  public:
   /// \param weight  D, kept by reference
@@ -42,6 +44,9 @@ class StaticTangent {
   bool symmetric_ = true;
   double rounding_ = 0.0, shift_ = 0.0;
   bool analysed_ = false;
+  void order();
+  Eigen::PermutationMatrix<Eigen::Dynamic> order_;  ///< of no size where rows keep theirs
+  Eigen::SparseMatrix<double> ordered_;             ///< the lower triangle of S in that order
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> lu_;
 };
