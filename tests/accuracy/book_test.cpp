@@ -1,30 +1,14 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 
-#include "accuracy/case.h"
+#include "accuracy/held.h"
 
 namespace tendril::accuracy {
-
-void PrintTo(const Entry& entry, std::ostream* out) {
-  *out << entry.name;
-}
-
 namespace {
 
 class Book : public testing::TestWithParam<Entry> {};
 
 TEST_P(Book, Holds) {
-  const Case one = GetParam().run();
-  std::printf("%s%s", table_heading().c_str(), to_table(one).c_str());
-  ASSERT_FALSE(one.quantities.empty());
-  for (const Quantity& quantity : one.quantities) {
-    const std::vector<Verdict> verdicts = judge(quantity);
-    EXPECT_FALSE(verdicts.empty()) << quantity.name << " is held to nothing";
-    for (const Verdict& verdict : verdicts)
-      EXPECT_TRUE(verdict.holds) << verdict.what << " at " << verdict.row.n << ": error " << verdict.row.error
-                                 << ", order " << verdict.order << ", limit " << verdict.limit;
-  }
+  expect_to_hold(GetParam().run());
 }
 
 INSTANTIATE_TEST_SUITE_P(Validation, Book, testing::ValuesIn(entries()),

@@ -7,15 +7,28 @@
 #include <filesystem>
 
 #include "accuracy/case.h"
+#ifdef TENDRIL_CONTACT
+#include "accuracy/contact/cases.h"
+#endif
 
 namespace tendril::accuracy {
 namespace {
+
+/// All that this build has.
+std::vector<Entry> book() {
+  std::vector<Entry> all = entries();
+#ifdef TENDRIL_CONTACT
+  const std::vector<Entry>& more = contact::contact_entries();
+  all.insert(all.end(), more.begin(), more.end());
+#endif
+  return all;
+}
 
 int print_book(const char* folder) {
   std::vector<Case> cases;
   bool holds = true;
   std::fputs(table_heading().c_str(), stdout);
-  for (const Entry& entry : entries()) {
+  for (const Entry& entry : book()) {
     cases.push_back(entry.run());
     std::fputs(to_table(cases.back()).c_str(), stdout);
     for (const std::string& note : cases.back().notes) std::printf("     %s\n", note.c_str());

@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-#include <tendril/contact/rod_contact.h>
 #include <tendril/dynamics/forces.h>
-#include <tendril/dynamics/simulation.h>
 
-#include "memory.h"
+#include "accuracy/contact/cases.h"
+#include "accuracy/contact/runs.h"
 #include "support/numbers.h"
 #include "support/rods.h"
 
@@ -12,7 +10,6 @@ namespace tendril::contact {
 namespace {
 
 using tendril::test::kPi;
-using test::memory_of;
 
 /// Holds a node by a spring of which the other end goes down.
 class Hand final : public Force {
@@ -92,28 +89,17 @@ Vec3 drawing_force(const Drawn& drawn, int edges) {
   Simulation simulation(system, start, options);
   Vec3 mean = Vec3::Zero();
   for (int k = 1; k <= 10; ++k) {
-    const Report report = simulation.run(4.0 + 0.1 * k);
-    EXPECT_EQ(report.stop, Stop::finished) << report.reason;
-    if (report.stop != Stop::finished) break;
+    run_to(simulation, 4.0 + 0.1 * k);
     const ContactMemory& memory = memory_of(simulation.state());
-    EXPECT_LT(memory.friction_work, 0.0);
+    require(memory.friction_work < 0.0, "friction takes work");
     Vec3 sum(0, 0, -pull);
     for (const Contact& c : memory.contacts) sum += c.force;
-    EXPECT_TRUE(std::none_of(memory.contacts.begin(), memory.contacts.end(),
-                             [](const Contact& c) { return c.sticks; }));
+    require(std::none_of(memory.contacts.begin(), memory.contacts.end(),
+                         [](const Contact& c) { return c.sticks; }),
+            "what is drawn over a drum slides");
     mean -= sum / 10;
   }
   return mean;
-}
-
-TEST(ContactBook, AChainOverADrumObeysTheCapstanEquation) {
-  const auto off = [](int edges) {
-    return drawing_force({2.5e-3, 0.3, 1.0, {0.2, 0.2}}, edges).norm() / std::exp(0.3 * kPi) - 1.0;
-  };
-  const double coarse = off(16), middle = off(32), fine = off(64);
-  std::cout << "capstan, ratio off by " << coarse << ", " << middle << ", " << fine << "\n";
-  EXPECT_GE(std::log2(std::abs(coarse / middle)), 1.8);
-  EXPECT_NEAR(fine, 0.0, 1e-3);
 }
 
 /// F2 / F1 of a stiff rod that slides over a drum, its ends' directions `whole` apart: each end lifts off by
@@ -129,20 +115,42 @@ double ratio_of_stiff(double force, double friction, double whole, double bendin
   return other / force;
 }
 
-TEST(ContactBook, AStiffRodSlidesOverADrum) {
-  EXPECT_NEAR(ratio_of_stiff(1.0, 0.3, kPi, 1.0), 2.052777, 1e-6);
-  EXPECT_NEAR(ratio_of_stiff(1.0, 0.3, kPi, 0.2), 2.426001, 1e-6);
-  EXPECT_NEAR(ratio_of_stiff(1.0, 0.3, kPi, 0.01), 2.558141, 1e-6);
-  for (const double share : {5.0, 20.0}) {
+}  // namespace
+
+Case capstan() {
+  Case out{"K1", "Chain that is drawn over a drum",
+           "half a turn with friction of 0.3: tensions in the ratio e^(mu pi) = 2.566332"};
+  Quantity ratio{"ratio of the tensions", std::exp(0.3 * kPi), "relative"};
+  for (const int edges : {16, 32, 64})
+    ratio.rows.push_back(
+        relative(edges, drawing_force({2.5e-3, 0.3, 1.0, {0.2, 0.2}}, edges).norm(), ratio.reference));
+  ratio.limits = {{64, 1e-3}};
+  ratio.order = Order{2.2, 0.4, 32};
+  out.quantities = {ratio};
+  return out;
+}
+
+Case stiff_rod_over_a_drum() {
+  Case out{"K2", "Stiff rod that is drawn over a drum",
+           "F (1 - cos phi) = B / (2 rho^2) at each end, F2 (cos phi2 - mu sin phi2) = F1 (cos phi1 + mu sin "
+           "phi1) e^(mu "
+           "(Theta - phi1 - phi2)), mu = 0.3"};
+  require(std::abs(ratio_of_stiff(1.0, 0.3, kPi, 1.0) - 2.052777) < 1e-6 &&
+              std::abs(ratio_of_stiff(1.0, 0.3, kPi, 0.2) - 2.426001) < 1e-6 &&
+              std::abs(ratio_of_stiff(1.0, 0.3, kPi, 0.01) - 2.558141) < 1e-6,
+          "the closed form has its known digits");
+  for (const int share : {5, 20}) {
     const double bending = 1.0 / share, length = std::sqrt(bending);
     const Vec3 force = drawing_force({bending, 0.3, 50.0, {3.5 * length, 2.5 * length}}, 64);
     // The hand stays where it is, so that the drawn end comes off the vertical.
     const double whole = kPi - std::atan2(force.x(), -force.z());
-    const double off = force.norm() / ratio_of_stiff(1.0, 0.3, whole, bending) - 1.0;
-    std::cout << "stiff rod over a drum, F1 rho^2 / B = " << share << ": ratio off by " << off << "\n";
-    EXPECT_NEAR(off, 0.0, 1e-3);
+    Quantity ratio{"F2 / F1 at F1 rho^2 / B = " + std::to_string(share),
+                   ratio_of_stiff(1.0, 0.3, whole, bending), "relative"};
+    ratio.rows = {relative(64, force.norm(), ratio.reference)};
+    ratio.limits = {{64, 1e-3}};
+    out.quantities.push_back(ratio);
   }
+  return out;
 }
 
-}  // namespace
 }  // namespace tendril::contact

@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-#include <tendril/contact/rod_contact.h>
 #include <tendril/contact/rod_rod_contact.h>
-#include <tendril/dynamics/statics.h>
 
-#include "memory.h"
+#include "accuracy/contact/cases.h"
+#include "accuracy/contact/runs.h"
 #include "support/numbers.h"
 #include "support/rods.h"
 
@@ -11,7 +9,6 @@
 namespace tendril::contact {
 namespace {
 
-using test::memory_of;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 using tendril::test::kPi;
 
@@ -70,8 +67,7 @@ InTube in_tube(const Helix& helix, int edges, double longer) {
   State start = system.rest_state();
   start.time = 1.0;
   for (int i = 0; i <= edges; ++i) start.y.segment<3>(3 * i) = helix.at(length * i / edges);
-  const Equilibrium found = find_equilibrium(system, start, {.first_load = 1.0});
-  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  const Equilibrium found = found_from(system, start, {.first_load = 1.0});
   InTube out{found.support[0].z(), 0.0, found.torque[0].z() + helix.at(0).cross(found.support[0]).z()};
   for (const Contact& c : memory_of(found.state).contacts) {
     const double at = static_cast<double>(c.node) + c.fraction + 0.5;
@@ -92,23 +88,8 @@ InTube free_in_tube(const Helix& helix, int edges) {
     before = longer, at_before = at, longer = next;
     at = in_tube(helix, edges, longer);
   }
-  EXPECT_LT(std::abs(at.torque), 1e-8);
+  require(std::abs(at.torque) < 1e-8, "a length without torque about the axis");
   return at;
-}
-
-TEST(ContactBook, AHelixInATube) {
-  const double angle = 20 * kPi / 180, force = 2 * std::pow(std::sin(angle), 2) * std::cos(angle),
-               push = std::pow(std::sin(angle), 4);
-  EXPECT_NEAR(force, 0.219846, 1e-6);
-  EXPECT_NEAR(push, 0.0136838, 1e-7);
-  const InTube coarse = free_in_tube({angle}, 32), fine = free_in_tube({angle}, 64);
-  const auto off = [](double a, double b) { return std::abs(a / b - 1.0); };
-  std::cout << "helix in a tube, force off by " << off(coarse.force, force) << ", " << off(fine.force, force)
-            << ", push by " << off(coarse.push, push) << ", " << off(fine.push, push) << "\n";
-  EXPECT_LE(off(fine.force, force), 1e-3);
-  EXPECT_LE(off(fine.push, push), 1e-3);
-  EXPECT_GE(std::log2(off(coarse.force, force) / off(fine.force, force)), 1.8);
-  EXPECT_GE(std::log2(off(coarse.push, push) / off(fine.push, push)), 1.8);
 }
 
 /// Two rods that lie about each other: what each bears at an end, in all along the axis and about it, and the
@@ -120,7 +101,7 @@ struct Ply {
 };
 /// \param longer  by which share they are at rest than between their ends
 /// \param turn    of the one end's frame against the other's, carried along
-Ply two_ply(const Helix& helix, int edges, double longer, double turn, double thicker) {
+Ply wound_ply(const Helix& helix, int edges, double longer, double turn, double thicker) {
   const double length = 0.3 * kPi / std::sin(helix.angle), range = 4e-3;
   // Edges touch with their middles.
   const double radius = std::cos(0.15 * kPi / edges) - 0.25 * range + thicker;
@@ -173,8 +154,7 @@ Ply two_ply(const Helix& helix, int edges, double longer, double turn, double th
   // Directors carried from where they rest turn against those that are carried along, by the area between.
   for (Eigen::Index i = 0; i < 2 * nodes; ++i)
     start.y[12 * nodes + i] = (1.0 - c) * s * length * static_cast<double>(i % nodes) / edges;
-  const Equilibrium found = find_equilibrium(system, start, {.first_load = 1.0});
-  EXPECT_EQ(found.balance, Balance::converged) << found.reason;
+  const Equilibrium found = found_from(system, start, {.first_load = 1.0});
   const Vec3 tangent = helix.frame(0).z;
   Ply out{found.support[0].z(), found.torque[0].z() + helix.at(0).cross(found.support[0]).z(),
           found.torque[0].dot(tangent), 0.0, found.state.y.segment<2>(3 * (edges / 2)).norm()};
@@ -192,7 +172,7 @@ Ply balanced_ply(const Helix& helix, int edges) {
   const Vec3 unit(1e-5, 1e-3, 1e-5);
   const auto ply = [&](const Vec3& x) {
     const Vec3 at = x.cwiseProduct(unit);
-    return two_ply(helix, edges, at.x(), at.y(), at.z());
+    return wound_ply(helix, edges, at.x(), at.y(), at.z());
   };
   const auto off = [](const Ply& at) { return Vec3(at.force, at.torque, at.radius - 1.0); };
   Vec3 x(-0.3, -12.25, -0.3);
@@ -203,27 +183,46 @@ Ply balanced_ply(const Helix& helix, int edges) {
     x -= by.inverse() * off(at);
     at = ply(x);
   }
-  EXPECT_LT(off(at).norm(), 1e-5);
+  require(off(at).norm() < 1e-5, "a ply that nothing pulls or turns");
   return at;
 }
 
-TEST(ContactBook, ABalancedTwoPly) {
-  const double angle = 30 * kPi / 180, s = std::sin(angle), c = std::cos(angle);
-  const double push = std::pow(s, 4) / std::cos(2 * angle),
-               twist = 2 * std::pow(s, 3) * c / std::cos(2 * angle);
-  EXPECT_NEAR(push, 0.125, 1e-6);
-  EXPECT_NEAR(twist, 0.433013, 1e-6);
-  const auto off = [](double a, double b) { return std::abs(a / b - 1.0); };
-  const Ply coarse = balanced_ply({angle}, 16), middle = balanced_ply({angle}, 32),
-            fine = balanced_ply({angle}, 64);
-  std::cout << "two-ply, push off by " << off(coarse.push, push) << ", " << off(middle.push, push) << ", "
-            << off(fine.push, push) << ", twisting moment by " << off(coarse.twist, twist) << ", "
-            << off(middle.twist, twist) << ", " << off(fine.twist, twist) << "\n";
-  EXPECT_LE(off(fine.push, push), 2.5e-3);
-  EXPECT_LE(off(fine.twist, twist), 1e-3);
-  EXPECT_GE(std::log2(off(coarse.push, push) / off(middle.push, push)), 1.8);
-  EXPECT_GE(std::log2(off(coarse.twist, twist) / off(middle.twist, twist)), 1.8);
+}  // namespace
+
+Case helix_in_a_tube() {
+  Case out{"K7", "Helix in a frictionless tube",
+           "clearance r, angle theta: F r^2 / B = 2 sin^2(theta) cos(theta), N r^3 / B = sin^4(theta); 20 "
+           "degrees, three "
+           "quarters of a turn"};
+  const Helix helix{20 * kPi / 180};
+  Quantity force{"F r^2 / B", 0.219846, "relative"}, push{"N r^3 / B", 0.0136838, "relative"};
+  for (const int edges : {16, 32, 64}) {
+    const InTube found = free_in_tube(helix, edges);
+    force.rows.push_back(relative(edges, found.force, force.reference));
+    push.rows.push_back(relative(edges, found.push, push.reference));
+  }
+  force.limits = push.limits = {{64, 1e-3}};
+  force.order = push.order = Order{2.0, 0.2, 32};
+  out.quantities = {force, push};
+  return out;
 }
 
-}  // namespace
+Case two_ply() {
+  Case out{"K8", "Balanced two-ply",
+           "p r^3 / B = sin^4(theta) / cos(2 theta), M3 r / B = 2 sin^3(theta) cos(theta) / cos(2 theta); 30 "
+           "degrees"};
+  const Helix helix{30 * kPi / 180};
+  Quantity push{"p r^3 / B", 0.125, "relative"}, twist{"M3 r / B", 0.433013, "relative"};
+  for (const int edges : {16, 32, 64}) {
+    const Ply found = balanced_ply(helix, edges);
+    push.rows.push_back(relative(edges, found.push, push.reference));
+    twist.rows.push_back(relative(edges, found.twist, twist.reference));
+  }
+  push.limits = {{64, 2.5e-3}};
+  twist.limits = {{64, 1e-3}};
+  push.order = twist.order = Order{2.2, 0.4, 32};
+  out.quantities = {push, twist};
+  return out;
+}
+
 }  // namespace tendril::contact

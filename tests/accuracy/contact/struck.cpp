@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
-#include <tendril/contact/rod_contact.h>
-#include <tendril/dynamics/simulation.h>
 
-#include "memory.h"
+#include "accuracy/contact/cases.h"
+#include "accuracy/contact/runs.h"
 #include "support/numbers.h"
 #include "support/rods.h"
 
@@ -11,7 +9,6 @@ namespace tendril::contact {
 namespace {
 
 using tendril::test::kPi;
-using test::memory_of;
 
 /// When a rod that met a wall end-on comes off it, over L / c, and with what momentum, over m V.
 struct Rebound {
@@ -62,24 +59,32 @@ Rebound rebound(int edges, Law law) {
     before = state.time, longer_before = longer;
     return true;
   });
-  const Report report = simulation.run(2.2);
-  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
-  EXPECT_TRUE(memory_of(simulation.state()).contacts.empty());
+  run_to(simulation, 2.2);
+  require(memory_of(simulation.state()).contacts.empty(), "a rod that met a wall comes off it");
   for (Eigen::Index i = 0; i < n; ++i)
     out.momentum += rod.mass[static_cast<std::size_t>(i)] * simulation.state().y[3 * (n + i)] / speed;
   return out;
 }
 
-TEST(ContactBook, ARodMeetsAWallEndOn) {
-  for (const auto& [edges, release, momentum] :
-       {std::tuple(8, 2.054765, 0.914567), std::tuple(32, 2.024207, 0.969695)}) {
+/// \param references  edges, release, momentum
+Case end_on(std::string id, std::vector<std::tuple<int, double, double>> references) {
+  Case out{std::move(id), "Rod that meets a wall end-on",
+           "its first mass sticks, and comes off after about 2 L / c with about V: digits of the lumped "
+           "chain, L = c = V = "
+           "mass = 1"};
+  for (const auto& [edges, release, momentum] : references) {
+    const std::string of = ", " + std::to_string(edges) + " edges";
+    Quantity when{"release" + of, release, "absolute"},
+        what{"momentum afterwards" + of, momentum, "absolute"};
     const Rebound found =
         rebound(edges, {.kind = Law::Kind::penalty, .stiffness = 1e7 * edges, .range = 1e-4});
-    std::cout << "end-on, " << edges << " edges: release off by " << found.release - release
-              << ", momentum by " << found.momentum - momentum << "\n";
-    EXPECT_NEAR(found.release, release, 1e-6);
-    EXPECT_NEAR(found.momentum, momentum, 1e-6);
+    when.rows = {{edges, found.release, found.release - release}};
+    what.rows = {{edges, found.momentum, found.momentum - momentum}};
+    when.limits = what.limits = {{edges, 1e-6}};
+    out.quantities.push_back(when);
+    out.quantities.push_back(what);
   }
+  return out;
 }
 
 /// v / V at a time of a mass that landed on a long beam of B = m = 1 and stays on it: e^(a^2 t) erfc(a
@@ -111,23 +116,34 @@ double landed(int edges, double length, double time) {
   SimulationOptions options;
   options.tolerance = 1e-8;
   Simulation simulation(system, system.rest_state(), options);
-  const Report report = simulation.run(time);
-  EXPECT_EQ(report.stop, Stop::finished) << report.reason;
-  EXPECT_FALSE(memory_of(simulation.state()).contacts.empty());
+  run_to(simulation, time);
+  require(!memory_of(simulation.state()).contacts.empty(), "what landed stays");
   return -system.bodies(simulation.state())[0].velocity.z() / speed;
 }
 
-TEST(ContactBook, AMassLandsOnALongBeam) {
-  // Beams so long that what their ends throw back is not there yet.
-  const double exact_early = 0.615690, exact_late = 0.427584;
-  const auto early = [&](int edges) { return std::abs(landed(edges, 16.0, 1.0) / exact_early - 1.0); };
-  const double coarse = early(32), fine = early(64);
-  const double late = std::abs(landed(64, 40.0, 4.0) / exact_late - 1.0);
-  std::cout << "landed, off by " << coarse << ", " << fine << " and " << late << "\n";
-  EXPECT_LE(fine, 1e-3);
-  EXPECT_GE(std::log2(coarse / fine), 1.8);
-  EXPECT_LE(late, 1e-3);
+}  // namespace
+
+Case end_on_impact() {
+  return end_on("K10", {{8, 2.054765, 0.914567}, {32, 2.024207, 0.969695}});
 }
 
-}  // namespace
+Case end_on_impact_finely() {
+  return end_on("K10", {{128, 2.009934, 0.988545}});
+}
+
+Case landing_mass() {
+  Case out{"K9", "Mass that lands on a long beam and stays",
+           "v / V = e^(a^2 t) erfc(a sqrt(t)), a = 2 sqrt(2) (B m^3)^(1/4) / M"};
+  // Beams so long that what their ends throw back is not there yet.
+  Quantity early{"v / V at a^2 t = 1/4", 0.615690, "relative"},
+      late{"v / V at a^2 t = 1", 0.427584, "relative"};
+  for (const int edges : {32, 64})
+    early.rows.push_back(relative(edges, landed(edges, 16.0, 1.0), early.reference));
+  late.rows = {relative(64, landed(64, 40.0, 4.0), late.reference)};
+  early.limits = late.limits = {{64, 1e-3}};
+  early.order = Order{2.4, 0.6, 64};
+  out.quantities = {early, late};
+  return out;
+}
+
 }  // namespace tendril::contact
