@@ -13,15 +13,32 @@
 
 namespace tendril {
 
+namespace {
+
+void put(const Columns3& from, std::size_t first, std::size_t end, std::vector<Vec3>& to) {
+  const double* __restrict x = from.x.data(), * __restrict y = from.y.data(), * __restrict z = from.z.data();
+  double* __restrict out = to.data()->data();
+  for (std::size_t i = first; i < end; ++i) {
+    out[3 * i] = x[i];
+    out[3 * i + 1] = y[i];
+    out[3 * i + 2] = z[i];
+  }
+}
+
+}  // namespace
+
 StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns& loads) {
   assert(kin.has_rates() && kin.has_frames());
-  for (std::size_t i = 0; i < model.nodes; ++i) {
-    loads.p[i] = kin.p[i];
-    loads.v[i] = kin.v[i];
-    loads.t[i] = kin.frame.z[i];
-    loads.m[i] = model.has_twist(i) ? kin.frame.y[i] : Vec3(Vec3::Zero());
-    loads.spin[i] = kin.spin[i];
-    loads.turn[i] = Vec3(kin.rate.turning[i]) + kin.spin[i] * loads.t[i];
+  const std::size_t n = model.nodes;
+  if (n > 0) {
+    put(kin.p, 0, n, loads.p);
+    put(kin.v, 0, n, loads.v);
+    put(kin.frame.z, 0, n, loads.t);
+    put(kin.rate.turning, 0, n, loads.turn);
+    for (const Model::Segment& segment : model.segments)
+      if (segment.twist) put(kin.frame.y, segment.first, segment.end, loads.m);
+    std::copy_n(kin.spin.data(), n, loads.spin.begin());
+    for (std::size_t i = 0; i < n; ++i) loads.turn[i] += loads.spin[i] * loads.t[i];
   }
   return {t,           loads.p,    loads.v, loads.t, loads.spin, model.mass,
           model.width, model.rods, loads.m, nullptr, kin.bodies, loads.turn};
