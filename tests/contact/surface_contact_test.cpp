@@ -207,6 +207,35 @@ TEST(SurfaceContact, ABallFallsOnALeafAndMeetsNoTriangle) {
   EXPECT_LE(std::abs(off), 1e-5 * drop.mass * drop.g * drop.height);
 }
 
+/// With damping a leaf that a ball struck comes back to where it was, when the ball is away.
+TEST(SurfaceContact, AStruckLeafComesBackToItsRest) {
+  Drop drop({.stiffness = 2e6, .range = 0.004});
+  drop.scene.rods[0].mass_damping = 8.0;
+  drop.scene.forces.pop_back();  // its weight
+  drop.scene.bodies[0].velocity = Vec3(0, 0, -std::sqrt(2 * drop.g * drop.height));
+  const System system(drop.scene);
+  Simulation simulation(system, system.rest_state(), {.tolerance = 1e-7});
+  const auto off = [&] {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < drop.surface.rest.size(); ++i) all.push_back(i);
+    std::vector<Vec3> at(all.size());
+    const auto work = system.make_workspace();
+    drop.surface.points->points().place(
+        drop.surface.points->curves().pairs(system, simulation.state(), *work), all, at);
+    double most = 0.0;
+    for (std::size_t i = 0; i < at.size(); ++i) most = std::max(most, (at[i] - drop.surface.rest[i]).norm());
+    return most;
+  };
+  Report report = simulation.run(0.2);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  EXPECT_GT(off(), 0.01);
+  report = simulation.run(4.0);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  std::cout << "back within " << off() << ", " << report.evaluations << " evaluations\n";
+  EXPECT_GT(system.bodies(simulation.state()).at(0).position.norm(), 1.5);
+  EXPECT_LE(off(), 1e-6);
+}
+
 /// What was on one side and is on the other has come through, however fast.
 TEST(SurfaceContact, RefusesAJumpThrough) {
   Random random(4);
