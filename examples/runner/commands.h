@@ -33,6 +33,9 @@ Command statics_command(CLI::App& parent);
 /// Throws InvalidInput naming the option where a file that it asks for is the one of --out.
 void require_other_file(const std::string& option, const std::string& path, const std::string& out);
 
+/// Refuses names that say another format than PNG.
+void expect_png(CLI::Option* option);
+
 /// What --threads asks for; 0 means all the machine has.
 int thread_count(int asked);
 

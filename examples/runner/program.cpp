@@ -2,6 +2,7 @@
 
 #include <tendril/base/error.h>
 
+#include <algorithm>
 #include <iostream>
 #include <vector>
 
@@ -33,6 +34,13 @@ int run_program(int argc, const char* const* argv) {
                                       render_command(app),  repair_command(app),  report_command(app),
                                       statics_command(app), collide_command(app), accuracy_command(app),
                                       pose_command(app),    rig_command(app)};
+  const auto is_asked = [&](const Command& command) { return command.app->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked)) {
+    std::cerr << "tendril: '" << argv[1] << "' is no subcommand; expected one of";
+    for (const Command& command : commands) std::cerr << ' ' << command.app->get_name();
+    std::cerr << '\n';
+    return kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

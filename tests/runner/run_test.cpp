@@ -241,6 +241,44 @@ TEST(Project, GivesTheWholeProjection) {
   EXPECT_LT(points[1].at("gap").get<double>(), 1e-12);
 }
 
+TEST(Project, FindsTheNearestOfAListOfCurves) {
+  const Folder folder;
+  folder.write("axes.json", R"({"version": 1, "curves": [
+    {"name": "up", "degree": 1, "points": [[0, 0, 0], [0, 2, 0]], "orientation": [1, 0, 0]},
+    {"degree": 1, "points": [[5, 0, 0], [5, 0, 2]], "orientation": [1, 0, 0]}]})");
+  folder.write("points.csv", "1,1,0\n5,1,1\n");
+  const Outcome outcome = folder.run("project axes.json points.csv --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["points"][0]["curve"], "up");
+  EXPECT_NEAR(json["points"][0]["distance"].get<double>(), 1.0, 1e-14);
+  EXPECT_EQ(json["points"][1]["curve"], "1");
+  EXPECT_NEAR(json["points"][1]["t"].get<double>(), 0.5, 1e-14);
+  const std::string rows = folder.run("project axes.json points.csv").out;
+  EXPECT_EQ(rows.substr(0, rows.find(',', 6)), "curve,t");
+  EXPECT_NE(rows.find("\nup,0.5,0,1,0,1,"), std::string::npos) << rows;
+}
+
+TEST(Commands, SayWhatThereIs) {
+  const Folder folder;
+  const Outcome unknown = folder.run("frobnicate x");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("'frobnicate' is no subcommand; expected one of run axis"), std::string::npos)
+      << unknown.err;
+  folder.write("tube.off", tube_off());
+  const Outcome other = folder.run("render tube.off --out tube.JPG");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("PNG"), std::string::npos) << other.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "tube.JPG"));
+}
+
+TEST(Check, CallsPointsAloneNoSurface) {
+  const Folder folder;
+  folder.write("points.off", "OFF\n1 0 0\n1 2 3\n");
+  EXPECT_NE(folder.run("check points.off").out.find("no faces"), std::string::npos);
+  EXPECT_EQ(Json::parse(folder.run("check points.off --json").out)["closed"], false);
+}
+
 TEST(Check, CountsAndLoads) {
   const Folder folder;
   folder.write("tube.off", tube_off());

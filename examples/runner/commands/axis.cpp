@@ -167,7 +167,7 @@ Command axis_command(CLI::App& parent) {
   app->add_option("--tolerance", how.tolerance, "of the fit, in distances to the surface")
       ->capture_default_str();
   app->add_option("--time-limit", how.time_limit, "seconds")->capture_default_str();
-  app->add_option("--picture", options->picture, "PNG file: the mesh with the curves");
+  expect_png(app->add_option("--picture", options->picture, "PNG file: the mesh with the curves"));
   app->add_option("--yaw", options->view.yaw, "degrees, of the picture")->capture_default_str();
   app->add_option("--pitch", options->view.pitch, "degrees, of the picture")->capture_default_str();
   app->add_option("--up", options->up, "the axis that points up in it: x, y, z, -x, -y, -z")

@@ -254,7 +254,8 @@ Command bind_command(CLI::App& parent) {
       ->capture_default_str();
   options->mode.add_to(*app);
   app->add_option("--refinements", options->refinements, "splits to judge by, 1 to 4")->capture_default_str();
-  app->add_option("--picture", options->picture, "PNG file: ambiguous points at rest, stretch in the pose");
+  expect_png(app->add_option("--picture", options->picture,
+                             "PNG file: ambiguous points at rest, stretch in the pose"));
   app->add_option("--threads", options->threads, "threads, 0 for all; the result is the same");
   app->add_flag("--json", options->json, "print JSON, with the ids of all that is odd");
   return {app, [options] { return judge(*options); }};

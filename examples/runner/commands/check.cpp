@@ -38,7 +38,7 @@ OrderedJson to_json(const bind::PolygonMesh& mesh, const bind::MeshReport& repor
           {"boundary_edges", report.boundary_edges},
           {"boundary_loops", report.boundary_loops},
           {"euler_characteristic", report.euler_characteristic},
-          {"closed", report.is_closed()},
+          {"closed", report.faces > 0 && report.is_closed()},
           {"manifold", report.is_manifold()},
           {"oriented", report.is_oriented()},
           {"duplicate_points", duplicates(report.duplicate_points)},
@@ -54,11 +54,14 @@ OrderedJson to_json(const bind::PolygonMesh& mesh, const bind::MeshReport& repor
 void print_text(const std::string& path, const bind::MeshReport& r) {
   const auto yes = [](bool is, const char* what) { return std::string(is ? "" : "not ") + what; };
   std::cout << path << ": " << r.points << " points, " << r.faces << " faces (" << r.triangles
-            << " triangles), " << r.edges << " edges\n"
-            << "  " << r.components << " component(s), " << r.boundary_loops << " hole(s), "
-            << yes(r.is_closed(), "closed") << ", " << yes(r.is_manifold(), "manifold") << ", "
-            << yes(r.is_oriented(), "consistently oriented") << "\n"
-            << "  box " << r.low.transpose() << "  to  " << r.high.transpose() << '\n';
+            << " triangles), " << r.edges << " edges\n";
+  if (r.faces == 0)
+    std::cout << "  no faces: points alone\n";
+  else
+    std::cout << "  " << r.components << " component(s), " << r.boundary_loops << " hole(s), "
+              << yes(r.is_closed(), "closed") << ", " << yes(r.is_manifold(), "manifold") << ", "
+              << yes(r.is_oriented(), "consistently oriented") << "\n";
+  std::cout << "  box " << r.low.transpose() << "  to  " << r.high.transpose() << '\n';
   const auto count = [](std::size_t n, const char* what) {
     if (n > 0) std::cout << "  " << n << ' ' << what << '\n';
   };

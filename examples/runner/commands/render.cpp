@@ -93,6 +93,17 @@ void require_other_file(const std::string& option, const std::string& path, cons
     throw InvalidInput(option, "'" + path + "', which --out writes", "another file");
 }
 
+void expect_png(CLI::Option* option) {
+  option->check([](const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    for (const char* other :
+         {".jpg", ".jpeg", ".gif", ".bmp", ".tif", ".tiff", ".webp", ".svg", ".pdf", ".ppm"})
+      if (ending == other) return "'" + path + "'; expected a name that ends in .png: pictures are PNG";
+    return std::string();
+  });
+}
+
 int thread_count(int asked) {
   if (asked < 0 || asked > 256) throw InvalidInput("--threads", std::to_string(asked), "0 (all) to 256");
   return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -102,7 +113,7 @@ Command render_command(CLI::App& parent) {
   auto* app = parent.add_subcommand("render", "A picture of a mesh or a frame, without a display");
   const auto options = std::make_shared<RenderArguments>();
   app->add_option("mesh", options->mesh, "OFF, PLY, OBJ or STL file")->required();
-  app->add_option("--out", options->out, "PNG file to write")->required();
+  expect_png(app->add_option("--out", options->out, "PNG file to write")->required());
   app->add_option("--axis", options->axis, "curve file (JSON) to draw over the mesh, with nodes and names");
   app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   app->add_option("--view", options->view, "YAW,PITCH in degrees")->capture_default_str();

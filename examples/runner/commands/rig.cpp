@@ -160,7 +160,7 @@ Command rig_command(CLI::App& parent) {
   app->add_option("--up", options->rig.up, "x, y, z, -x, -y or -z; guessed by the feet");
   app->add_option("--wind", options->rig.wind,
                   "mean speed in metres a second, 0 for none; 8, or less where that would be a gale");
-  app->add_option("--picture", options->picture, "PNG file: curves, sections and what is held");
+  expect_png(app->add_option("--picture", options->picture, "PNG file: curves, sections and what is held"));
   app->add_option("--yaw", options->view.yaw, "degrees, of the picture")->capture_default_str();
   app->add_option("--pitch", options->view.pitch, "degrees, of the picture")->capture_default_str();
   app->add_option("--threads", options->threads, "threads, 0 for all");
