@@ -1,6 +1,7 @@
 #include "runner/program.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -100,6 +101,69 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
 }
 
 /// A stiff bar clamped at its first node until t = 0.5: m g, and m g L / 2 against the weight's torque.
+/// Without friction a rod is followed down to a floor; with it that takes a start on the floor, which is said.
+TEST(Statics, SaysWhatHelpsWhereFrictionKeepsARodInTheAir) {
+  const Folder folder;
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "curve_pairs": [
+      {"name": "rod", "points": [[-0.6, 0, 0.05], [0, 0, 0.05], [0.6, 0, 0.05]], "nodes": 33, "orientation": [0, 1, 0],
+       "material": {"young": 1e6, "poisson": 0.35, "density": 1000}, "section": {"type": "circular", "radius": 0.01}}],
+    "bodies": [{"name": "floor", "shape": {"type": "half_space"}}],
+    "contact": {"friction": 0.3},
+    "forces": [{"type": "gravity", "acceleration": [0, 0, -9.81]}],
+    "simulation": {"duration": 1}
+  })");
+  folder.write("scene.json", scene.dump());
+  const Outcome held = folder.run("statics scene.json");
+  EXPECT_EQ(held.code, 1);
+  EXPECT_NE(held.err.find("begin where it touches"), std::string::npos) << held.err;
+  scene["contact"]["friction"] = 0;
+  folder.write("scene.json", scene.dump());
+  const Outcome fallen = folder.run("statics scene.json --out out --json --no-pictures");
+  ASSERT_EQ(fallen.code, 0) << fallen.err;
+  EXPECT_EQ(Json::parse(fallen.out)["stability"]["kind"], "neutral");
+  const std::string contacts = bytes_of(folder / "out/contacts.csv");
+  EXPECT_GT(std::count(contacts.begin(), contacts.end(), '\n'), 33);
+}
+
+/// A soft leaf lies on a ball: what that bears and what its clamp does are its weight.
+TEST(Statics, FindsHowAMeshLiesOnASolid) {
+  const Folder folder;
+  const std::string scenes = std::string(TENDRIL_SOURCE_DIR) + "/examples/scenes/";
+  Json scene = Json::parse(bytes_of(scenes + "ball_on_leaf_blade.json"), nullptr, true, true);
+  folder.write("leaf.off", bytes_of(scenes + "leaf.off"));
+  scene["curve_pairs"][0]["material"]["young"] = 5e6;
+  scene["contact"]["damping"] = 0;
+  scene["bodies"] = Json::parse(
+      R"([{"name": "ball", "shape": {"type": "ball", "radius": 0.04}, "position": [0.55, 0.03, -0.06]}])");
+  const auto support = [&] {
+    folder.write("scene.json", scene.dump());
+    const Outcome outcome = folder.run("statics scene.json --out out --json --no-pictures");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Json force = Json::parse(outcome.out)["supports"][0]["force"];
+    return std::array<double, 3>{force[0], force[1], force[2]};
+  };
+  std::array<double, 3> sum = support();
+  std::istringstream contacts(bytes_of(folder / "out/mesh_contacts.csv"));
+  std::string line;
+  int touches = 0;
+  for (std::getline(contacts, line); std::getline(contacts, line); ++touches) {
+    std::vector<double> row;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) row.push_back(std::stod(word));
+    ASSERT_EQ(row.size(), 17U);
+    EXPECT_GT(row[3], 0.0);  // gap
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += row[10 + i];
+  }
+  EXPECT_GT(touches, 5);
+  scene.erase("bodies");
+  scene.erase("contact");
+  const std::array<double, 3> weight = support();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sum[i], weight[i], 1e-6);
+  EXPECT_GT(weight[2], 1.0);
+}
+
 TEST(Statics, SaysForcesAndTorquesOfSupportsAndSoDoesARunThatIsAskedTo) {
   const Folder folder;
   Json scene = Json::parse(R"({

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 namespace tendril::runner {
 namespace {
@@ -23,11 +24,15 @@ struct StaticsArguments {
   bool nearest = false, no_pictures = false, double_precision = false, json = false;
 };
 
+bool mesh_meets(const scene::SceneFile& file) {
+  return file.mesh_contact.make || file.mesh_self_contact.make;
+}
+
 scene::SceneFile read_all(const StaticsArguments& options, bind::PolygonMesh& mesh, Phases& phases) {
   const Phases::Timer timer(phases, Phases::import);
   scene::SceneFile file = scene::read_scene(options.scene);
   if (!options.mesh.empty()) file.mesh = options.mesh;
-  if (options.out.empty()) file.mesh.clear();
+  if (options.out.empty() && !mesh_meets(file)) file.mesh.clear();
   mesh = read_mesh(file);
   return file;
 }
@@ -123,6 +128,12 @@ void tell(const StaticsArguments& options, const OrderedJson& summary, const Equ
   }
   if (found.balance != Balance::converged) {
     std::cerr << "tendril: " << tendril::to_string(found.balance) << ": " << found.reason << '\n';
+    // What falls is followed by its energy.
+    if (found.balance == Balance::unheld && !found.conservative)
+      std::cerr
+          << "tendril: what may help: with friction, or other forces without an energy, nothing is followed "
+             "to where "
+             "it comes to rest; begin where it touches, leave friction out, or let it run with damping\n";
   }
 }
 
@@ -131,7 +142,17 @@ int statics(const StaticsArguments& options) {
   Phases phases;
   bind::PolygonMesh mesh;
   const scene::SceneFile file = read_all(options, mesh, phases);
-  const System system = scene::make_system(file);
+  // What the mesh meets is felt through its binding.
+  std::optional<scene::SceneRun> bound;
+  if (mesh_meets(file)) {
+    scene::SceneFile from_rest = file;
+    from_rest.start_at_equilibrium = false;
+    from_rest.start_motions.clear();
+    bound.emplace(std::move(from_rest), mesh, scene::RunOptions{.threads = thread_count(options.threads)});
+    phases.take(bound->seconds());
+  }
+  std::optional<System> bare;
+  const System& system = bound ? bound->system() : bare.emplace(scene::make_system(file));
   StaticsOptions search = search_options(options, file);
   if (!options.out.empty()) make_folder(options.out);
   Equilibrium found;
