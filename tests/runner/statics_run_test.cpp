@@ -101,7 +101,8 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
 }
 
 /// A stiff bar clamped at its first node until t = 0.5: m g, and m g L / 2 against the weight's torque.
-/// Without friction a rod is followed down to a floor; with it that takes a start on the floor, which is said.
+/// Without friction a rod is followed down to a floor; with it that takes a start on the floor, which is
+/// said.
 TEST(Statics, SaysWhatHelpsWhereFrictionKeepsARodInTheAir) {
   const Folder folder;
   Json scene = Json::parse(R"({
