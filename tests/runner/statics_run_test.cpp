@@ -100,7 +100,6 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
   return rows;
 }
 
-/// A stiff bar clamped at its first node until t = 0.5: m g, and m g L / 2 against the weight's torque.
 /// Without friction a rod is followed down to a floor; with it that takes a start on the floor, which is
 /// said.
 TEST(Statics, SaysWhatHelpsWhereFrictionKeepsARodInTheAir) {
@@ -165,6 +164,7 @@ TEST(Statics, FindsHowAMeshLiesOnASolid) {
   EXPECT_GT(weight[2], 1.0);
 }
 
+/// A stiff bar clamped at its first node until t = 0.5: m g, and m g L / 2 against the weight's torque.
 TEST(Statics, SaysForcesAndTorquesOfSupportsAndSoDoesARunThatIsAskedTo) {
   const Folder folder;
   Json scene = Json::parse(R"({
