@@ -296,6 +296,8 @@ TEST(Deform, SaysWhereAMeshIsTooCoarseOrElsewhere) {
       "far.json",
       R"({"version": 1, "orientation": [0, 1, 0], "points": [[50,0,0],[60,0,0],[70,0,0],[80,0,0]]})");
   ASSERT_EQ(folder.run("pose axis.json --bend 0:30 --out a.json").code, 0);
+  ASSERT_EQ(folder.run("pose axis.json --bend 30 --out same.json").code, 0);  // of the one curve there is
+  EXPECT_EQ(bytes_of(folder / "same.json"), bytes_of(folder / "a.json"));
   ASSERT_EQ(folder.run("pose axis.json --bend 0:120 --out b.json").code, 0);
   const Outcome gentle = folder.run("deform bar.off --axis axis.json --pose a.json --out a.off");
   EXPECT_EQ(gentle.code, 0);

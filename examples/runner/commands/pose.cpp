@@ -36,16 +36,17 @@ std::string names_of(const std::vector<Limb>& limbs) {
   return out;
 }
 
-/// NAME:DEGREES, the name up to the last colon.
+/// NAME:DEGREES, the name up to the last colon; of one curve DEGREES alone.
 void set(const std::string& option, const std::string& text, std::vector<Limb>& limbs, double Limb::*angle) {
   const std::size_t colon = text.rfind(':');
+  const bool alone = colon == std::string::npos && limbs.size() == 1;
+  const std::size_t from = alone ? 0 : colon + 1;
   double degrees = 0.0;
   const char* end = text.data() + text.size();
-  const bool number = colon != std::string::npos &&
-                      std::from_chars(text.data() + colon + 1, end, degrees).ptr == end &&
-                      colon + 1 < text.size();
+  const bool number = (alone || colon != std::string::npos) && from < text.size() &&
+                      std::from_chars(text.data() + from, end, degrees).ptr == end;
   if (!number || !(std::abs(degrees) <= 1e6)) throw InvalidInput(option, "'" + text + "'", "NAME:DEGREES");
-  const std::string name = text.substr(0, colon);
+  const std::string name = alone ? limbs[0].name : text.substr(0, colon);
   const auto limb = std::find_if(limbs.begin(), limbs.end(), [&](const Limb& l) { return l.name == name; });
   if (limb == limbs.end()) throw InvalidInput(option, "no curve is called '" + name + "'", names_of(limbs));
   (*limb).*angle += degrees * M_PI / 180.0;
@@ -166,10 +167,10 @@ Command pose_command(CLI::App& parent) {
   const auto options = std::make_shared<PoseArguments>();
   app->add_option("axis", options->axis, "curve file (JSON) at rest, of one or several chains of points")
       ->required();
-  app->add_option(
-         "--bend", options->bends,
-         "NAME:DEGREES, evenly along the curve, towards its orientation side; its start, and the way it "
-         "sets out, stay; several add up")
+  app->add_option("--bend", options->bends,
+                  "NAME:DEGREES, of one curve DEGREES, evenly along the curve, towards its orientation side; "
+                  "its start, and the way it "
+                  "sets out, stay; several add up")
       ->allow_extra_args(false);
   app->add_option("--twist", options->twists, "NAME:DEGREES at its end, evenly from none at its start")
       ->allow_extra_args(false);
