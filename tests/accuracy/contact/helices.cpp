@@ -28,9 +28,9 @@ struct Helix {
   }
 };
 
-/// What a rod in a tube bears, pressed into a helix of one turn: its end's force along the axis, F r^2 / B,
-/// and that of the tube a length, N r^3 / B, in its middle half. Its ends hold each other by a torque about
-/// the axis, which should be 0.
+/// What a rod in a tube bears, pressed into a helix of three quarters of a turn: its end's force along the
+/// axis, F r^2 / B, and that of the tube a length, N r^3 / B, in its middle half. Its ends hold each other
+/// by a torque about the axis, which should be 0.
 struct InTube {
   double force, push, torque;
 };

@@ -6,7 +6,8 @@
 namespace tendril {
 namespace {
 
-/// Derivatives by nodes' positions, put on the free coordinates that carry them.
+/// Derivatives by nodes' positions, put on the free coordinates that carry them: the root of a child has none
+/// of its own, it goes where its parent's node goes, and what acts on it acts there, if the parent feels it.
 class OnCoordinates final : public LoadDerivatives {
  public:
   OnCoordinates(const Model& model, const StaticCoordinates& coordinates,
@@ -36,6 +37,8 @@ class OnCoordinates final : public LoadDerivatives {
 
 }  // namespace
 
+/// Differences of what couples n nodes ask a force some 8 n times at each tangent: what it says of itself is
+/// taken instead.
 void StaticLoads::put_exact(const State& state, StateView& view, std::vector<Eigen::Triplet<double>>& out) {
   OnCoordinates to(model_of(system_), coordinates_, out);
   for (const External& one : forces_) {
@@ -45,13 +48,14 @@ void StaticLoads::put_exact(const State& state, StateView& view, std::vector<Eig
   }
 }
 
-/// Whether a torque that is the same in every state acts on a free tangent, which it pushes as that turns.
+/// Whether a torque that is the same in every state acts on a free tangent: the forces by which it turns the
+/// edges around change as these turn, so that it has a derivative though its force has none.
 bool StaticLoads::dead_torques(const State& state, StateView& view) {
-  for (auto* vectors : {&force_, &torque_}) std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
+  const Loads loads = no_loads();
   for (const External& one : forces_) {
     if (!one.dead()) continue;
     view.memory = memory_of(*one.acting, state);
-    one.acting->force->add(view, {force_, torque_});
+    one.acting->force->add(view, loads);
   }
   pass_to_parents();
   for (std::size_t i = 0; i < torque_.size(); ++i)
@@ -59,7 +63,9 @@ bool StaticLoads::dead_torques(const State& state, StateView& view) {
   return false;
 }
 
-/// Greedy, by the nodes that springs and loads couple: two nodes of one colour share none of those.
+/// Greedy, by the nodes that springs and loads couple: two nodes of one colour share none of those, so that
+/// both are moved at once and each load tells which of them moved it. What touches stays the same over most
+/// of a search: colours are made anew only where it does not.
 void StaticLoads::colour(const Eigen::SparseMatrix<double>& pattern, NodePairs pairs) {
   if (!colours_.empty() && pairs == coloured_) return;
   const std::size_t n = system_.node_count();
@@ -91,7 +97,8 @@ void StaticLoads::colour(const Eigen::SparseMatrix<double>& pattern, NodePairs p
   coloured_ = std::move(pairs);
 }
 
-/// What the forces that differences are taken of do where x moves a state to.
+/// What the forces that differences are taken of do where x moves a state to. Their energies are not asked
+/// for: of a contact they cost as much as its loads.
 Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q,
                               System::Workspace& work) {
   const Model& model = model_of(system_);
@@ -105,6 +112,7 @@ Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eige
     else
       there.y[coordinates_.axis(k) == 3 ? place + 3 * n : place] += x[k];
   }
+  // No coordinate moves the root of a child: left where it was, what acts on it would seem not to change.
   for (const NodeRange& rod : system_.rods()) {
     const std::size_t root = rod.first, parent = model.carrier[root];
     there.y.segment<3>(3 * static_cast<Eigen::Index>(root)) += at(there.y, parent) - at(state.y, parent);
@@ -113,9 +121,7 @@ Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eige
   if (frames.empty()) return {Evaluation::Outcome::not_finite, 0};
   StateView view = view_of(there, frames);
   std::size_t refused = Loads::kNone;
-  Loads loads{force_, torque_};
-  loads.refused = &refused;
-  for (auto* vectors : {&force_, &torque_}) std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
+  const Loads loads = no_loads(&refused);
   for (const Differenced& one : differenced_) {
     view.memory = memory_of(*one.acting, there);
     if (one.beside)
@@ -130,29 +136,45 @@ Evaluation StaticLoads::moved(const State& state, const Eigen::VectorXd& x, Eige
   return q.allFinite() ? Evaluation{} : Evaluation{Evaluation::Outcome::not_finite, 0};
 }
 
+/// Finds what differences have to be taken of at a state, into differenced_.
+/// \return  the nodes that it couples there
+NodePairs StaticLoads::find_differenced(const State& state, StateView& view) {
+  const bool torques = dead_torques(state, view);
+  NodePairs pairs;
+  differenced_.clear();
+  for (const External& one : forces_) {
+    if (!one.acting || (one.dead() && !torques) || one.acting->couplings.derivatives()) continue;
+    if (!one.acting->varies()) {
+      pairs.insert(pairs.end(), one.always.begin(), one.always.end());
+      differenced_.push_back({one.acting, {}});
+      continue;
+    }
+    view.memory = memory_of(*one.acting, state);
+    LocalCouplings local = one.acting->couplings.local()(view);
+    if (local.pairs.empty()) continue;
+    const NodePairs now = coupled_by_pairs(model_of(system_), local.pairs, true);
+    pairs.insert(pairs.end(), now.begin(), now.end());
+    differenced_.push_back({one.acting, std::move(local.add)});
+  }
+  return pairs;
+}
+
 Evaluation StaticLoads::differentiate(const State& state, const Eigen::SparseMatrix<double>& pattern,
                                       std::vector<Eigen::Triplet<double>>& out, System::Workspace& work) {
   const std::vector<Frame> frames = system_.frames(state, work);
   if (frames.empty()) return {Evaluation::Outcome::not_finite, 0};
   StateView view = view_of(state, frames);
   put_exact(state, view, out);
-  const bool torques = dead_torques(state, view);
-  NodePairs pairs;
-  differenced_.clear();
-  for (const External& one : forces_) {
-    if (!one.acting || (one.dead() && !torques) || one.acting->couplings.derivatives()) continue;
-    const Couplings& couplings = one.acting->couplings;
-    view.memory = memory_of(*one.acting, state);
-    LocalCouplings local;
-    if (one.acting->varies()) local = couplings.local()(view);
-    if (one.acting->varies() && local.pairs.empty()) continue;
-    const NodePairs more = one.acting->varies() ? coupled_by_pairs(model_of(system_), local.pairs, true)
-                                                : coupled_by_force(model_of(system_), couplings, true);
-    pairs.insert(pairs.end(), more.begin(), more.end());
-    differenced_.push_back({one.acting, std::move(local.add)});
-  }
+  NodePairs pairs = find_differenced(state, view);
   if (differenced_.empty()) return {};
   colour(pattern, std::move(pairs));
+  return take_differences(state, out, work);
+}
+
+/// Central, of a millionth of an edge or of a radian: a tenth of what loads beside a state are good for
+/// (LocalCouplings), and large against the rounding of positions.
+Evaluation StaticLoads::take_differences(const State& state, std::vector<Eigen::Triplet<double>>& out,
+                                         System::Workspace& work) {
   const double edge = coordinates_.length() / static_cast<double>(system_.node_count());
   Eigen::VectorXd up, down;
   for (const auto& nodes : colours_)

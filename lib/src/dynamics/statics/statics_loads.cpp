@@ -27,7 +27,10 @@ StaticLoads::StaticLoads(const System& system, const StaticCoordinates& coordina
     }
     conservative_ = conservative_ && (acting->has_energy || !acting->couplings.any());
     depends_on_state_ = depends_on_state_ || acting->couplings.any();
-    forces_.push_back({&*acting++, Vec3::Zero()});
+    const bool alike = !acting->varies() && !acting->couplings.derivatives();
+    forces_.push_back({&*acting, Vec3::Zero(),
+                       alike ? coupled_by_force(model_of(system), acting->couplings, true) : NodePairs{}});
+    ++acting;
   }
   const std::size_t n = system.node_count();
   spin_.assign(n, 0.0);
@@ -44,6 +47,12 @@ StateView StaticLoads::view_of(const State& state, const std::vector<Frame>& fra
   return {state.time, p_, v_, t_, spin_, mass_, width_, system_.rods(), m_, nullptr, {}, v_};
 }
 
+/// All zero, to be added to.
+Loads StaticLoads::no_loads(std::size_t* refused) {
+  for (auto* vectors : {&force_, &torque_}) std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
+  return {force_, torque_, refused};
+}
+
 Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& potential,
                             System::Workspace& work) {
   q.setZero(coordinates_.size());
@@ -53,9 +62,7 @@ Evaluation StaticLoads::add(const State& state, Eigen::VectorXd& q, double& pote
   if (frames.empty()) return {Evaluation::Outcome::not_finite, 0};
   StateView view = view_of(state, frames);
   std::size_t refused = Loads::kNone;
-  Loads loads{force_, torque_};
-  loads.refused = &refused;
-  for (auto* vectors : {&force_, &torque_}) std::fill(vectors->begin(), vectors->end(), Vec3::Zero());
+  const Loads loads = no_loads(&refused);
   for (const External& one : forces_) {
     if (!one.dead()) continue;
     view.memory = memory_of(*one.acting, state);

@@ -40,22 +40,27 @@ class StaticLoads {
   struct External {
     const Model::Acting* acting;
     Vec3 acceleration;
+    NodePairs always = {};  ///< what differences of it couple, where that is the same in every state
     /// Without an energy, and the same in every state.
     bool dead() const { return acting && !acting->has_energy && !acting->couplings.any(); }
   };
-  StateView view_of(const State& state, const std::vector<Frame>& frames);
-  void add_living(const External& one, const State& state, StateView& view, const Loads& loads,
-                  double& potential) const;
-  void pass_to_parents();
-  void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q);
-  void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent);
   /// A force that differences are taken of, and its loads beside a state where it says them.
   struct Differenced {
     const Model::Acting* acting;
     std::function<void(const StateView&, const Loads&)> beside;
   };
+  StateView view_of(const State& state, const std::vector<Frame>& frames);
+  Loads no_loads(std::size_t* refused = nullptr);
+  void add_living(const External& one, const State& state, StateView& view, const Loads& loads,
+                  double& potential) const;
+  void pass_to_parents();
+  void pull_back(const std::vector<Frame>& frames, Eigen::VectorXd& q);
+  void pull_back_turn(const NodeRange& rod, std::size_t node, const Vec3& by_tangent);
   void put_exact(const State& state, StateView& view, std::vector<Eigen::Triplet<double>>& out);
   bool dead_torques(const State& state, StateView& view);
+  NodePairs find_differenced(const State& state, StateView& view);
+  Evaluation take_differences(const State& state, std::vector<Eigen::Triplet<double>>& out,
+                              System::Workspace& work);
   void colour(const Eigen::SparseMatrix<double>& pattern, NodePairs pairs);
   Evaluation moved(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& q, System::Workspace& work);
 
