@@ -130,10 +130,9 @@ void tell(const StaticsArguments& options, const OrderedJson& summary, const Equ
     std::cerr << "tendril: " << tendril::to_string(found.balance) << ": " << found.reason << '\n';
     // What falls is followed by its energy.
     if (found.balance == Balance::unheld && !found.conservative)
-      std::cerr
-          << "tendril: what may help: with friction, or other forces without an energy, nothing is followed "
-             "to where "
-             "it comes to rest; begin where it touches, leave friction out, or let it run with damping\n";
+      std::cerr << "tendril: what may help: with friction, or other forces without an energy, nothing is "
+                   "followed to where it comes to rest; begin where it touches, leave friction out, or let "
+                   "it run with damping\n";
   }
 }
 
@@ -184,9 +183,9 @@ Command statics_command(CLI::App& parent) {
   app->add_option("--out", options->out, "folder for masses, mesh, pictures and summary of the equilibrium");
   app->add_option("--mesh", options->mesh, "mesh (OFF, PLY, OBJ, STL) to use instead of the scene's");
   app->add_option("--load", options->statics.last_load, "share of all forces, 1 by default");
-  app->add_option("--first-load", options->statics.first_load,
-                  "share of all forces at the start; by default the scene's, else 0, or all of them where "
-                  "nothing bends");
+  app->add_option(
+      "--first-load", options->statics.first_load,
+      "share of all forces at the start; by default the scene's, else 0, or all of them where nothing bends");
   app->add_option("--until", options->statics.until,
                   "time to which anchors and forces are followed; by default the scene's duration where "
                   "anchors move, else 0");

@@ -273,10 +273,10 @@ Case three_point_bending() {
 }
 
 Case heavy_rod_on_a_floor() {
-  Case out{"K6", "Heavy rod on a floor, small slopes",
-           "a cantilever at the height h with q L^4 / (B h) = 200: free over (72 B h / q)^(1/4), two thirds "
-           "of that weight on "
-           "the clamp; lifted by delta: l = (24 B delta / q)^(1/4) comes off, q l / 2 lifts it"};
+  Case out{
+      "K6", "Heavy rod on a floor, small slopes",
+      "a cantilever at the height h with q L^4 / (B h) = 200: free over (72 B h / q)^(1/4), two thirds of "
+      "that weight on the clamp; lifted by delta: l = (24 B delta / q)^(1/4) comes off, q l / 2 lifts it"};
   Quantity clamp{"force on the clamp over q L", 2.0 / 3.0 * std::pow(72.0 / 200.0, 0.25), "relative"};
   for (const int edges : {16, 32})
     clamp.rows.push_back(relative(edges, clamp_force(edges, 1e-6), clamp.reference));

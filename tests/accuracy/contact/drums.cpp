@@ -133,8 +133,7 @@ Case capstan() {
 Case stiff_rod_over_a_drum() {
   Case out{"K2", "Stiff rod that is drawn over a drum",
            "F (1 - cos phi) = B / (2 rho^2) at each end, F2 (cos phi2 - mu sin phi2) = F1 (cos phi1 + mu sin "
-           "phi1) e^(mu "
-           "(Theta - phi1 - phi2)), mu = 0.3"};
+           "phi1) e^(mu (Theta - phi1 - phi2)), mu = 0.3"};
   require(std::abs(ratio_of_stiff(1.0, 0.3, kPi, 1.0) - 2.052777) < 1e-6 &&
               std::abs(ratio_of_stiff(1.0, 0.3, kPi, 0.2) - 2.426001) < 1e-6 &&
               std::abs(ratio_of_stiff(1.0, 0.3, kPi, 0.01) - 2.558141) < 1e-6,

@@ -192,8 +192,7 @@ Ply balanced_ply(const Helix& helix, int edges) {
 Case helix_in_a_tube() {
   Case out{"K7", "Helix in a frictionless tube",
            "clearance r, angle theta: F r^2 / B = 2 sin^2(theta) cos(theta), N r^3 / B = sin^4(theta); 20 "
-           "degrees, three "
-           "quarters of a turn"};
+           "degrees, three quarters of a turn"};
   const Helix helix{20 * kPi / 180};
   Quantity force{"F r^2 / B", 0.219846, "relative"}, push{"N r^3 / B", 0.0136838, "relative"};
   for (const int edges : {16, 32, 64}) {

@@ -160,8 +160,7 @@ double given_way(int edges, double mu, double weight, double pull, double tensio
 Case mass_and_barrier() {
   Case out{"K11", "Mass that meets a floor with V = 1",
            "in the barrier -kappa (d - range)^2 ln(d / range), m = 1, range = 0.01: least gap and time by "
-           "quadrature; on a "
-           "spring pi sqrt(m / k)",
+           "quadrature; on a spring pi sqrt(m / k)",
            "", "masses"};
   const auto add = [&](std::string name, double reference, double value, double scale, double limit) {
     Quantity one{std::move(name), reference, "relative"};
@@ -190,8 +189,7 @@ Case mass_and_barrier() {
 Case stick_and_slip() {
   Case out{"K12", "What friction holds, and lets go",
            "a block at 0.95 of the friction cone does not creep; a mass on a spring from 10.3 mu N / k comes "
-           "to rest at -0.3 mu "
-           "N / k; a rod drawn by F on a rough plane gives way by F^2 / (2 E A mu q)",
+           "to rest at -0.3 mu N / k; a rod drawn by F on a rough plane gives way by F^2 / (2 E A mu q)",
            "", "masses or edges"};
   const auto add = [&](const char* name, double reference, const char* error_is, Row row, double limit) {
     Quantity one{name, reference, error_is};

@@ -70,8 +70,7 @@ Rebound rebound(int edges, Law law) {
 Case end_on(std::string id, std::vector<std::tuple<int, double, double>> references) {
   Case out{std::move(id), "Rod that meets a wall end-on",
            "its first mass sticks, and comes off after about 2 L / c with about V: digits of the lumped "
-           "chain, L = c = V = "
-           "mass = 1"};
+           "chain, L = c = V = mass = 1"};
   for (const auto& [edges, release, momentum] : references) {
     const std::string of = ", " + std::to_string(edges) + " edges";
     Quantity when{"release" + of, release, "absolute"},
