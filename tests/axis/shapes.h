@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 
 /// Closed surfaces whose axes are known.
 namespace tendril::test {
@@ -123,6 +124,35 @@ inline bind::PolygonMesh three_tubes(double step = 0.0501) {
     return least;
   };
   return Isosurface(field, Vec3(-1.01, -1.53, -0.32), Vec3(1.1, 1.1, 0.4), step).mesh();
+}
+
+/// About the z axis from 0, with flat lids about their middles: rings of `round` points, one more than
+/// `rings`.
+inline bind::PolygonMesh cylinder(double length, double radius, std::uint32_t rings, std::uint32_t round) {
+  bind::PolygonMesh mesh;
+  const auto face = [&](std::initializer_list<std::uint32_t> corners) {
+    mesh.corners.insert(mesh.corners.end(), corners);
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  };
+  for (std::uint32_t i = 0; i <= rings; ++i)
+    for (std::uint32_t k = 0; k < round; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / round;
+      mesh.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), length * i / rings);
+    }
+  mesh.points.emplace_back(0, 0, 0);
+  mesh.points.emplace_back(0, 0, length);
+  const std::uint32_t foot = round * (rings + 1), top = round * rings;
+  for (std::uint32_t k = 0; k < round; ++k) {
+    const std::uint32_t next = (k + 1) % round;
+    for (std::uint32_t i = 0; i < rings; ++i) {
+      const std::uint32_t a = i * round + k, b = i * round + next, c = b + round, d = a + round;
+      face({a, b, c});
+      face({a, c, d});
+    }
+    face({foot, next, k});
+    face({foot + 1, top + k, top + next});
+  }
+  return mesh;
 }
 
 }  // namespace tendril::test

@@ -68,7 +68,7 @@ class Fitter {
   }
 
   AxisCurve fit_within(const Path& path) {
-    const Line samples = centred(evenly(path.line, kSamples), surface_);
+    const Line samples = centred(evenly(path.line, kSamples), surface_, path.stays);
     const std::vector<double> width = half_widths(samples, surface_);
     std::optional<AxisCurve> best;
     nodes_.emplace_back();
@@ -132,6 +132,16 @@ class Fitter {
   std::vector<AxisCurve> curves_;
   std::vector<std::vector<std::size_t>> nodes_;  ///< of the vertices of each path
 };
+
+/// At its free ends.
+void extend(Path& path, const Surface& surface) {
+  if (!path.stays.last) path.along.back() += extend_end(path.line, surface);
+  if (path.stays.first) return;
+  std::reverse(path.line.begin(), path.line.end());
+  const double more = extend_end(path.line, surface);
+  std::reverse(path.line.begin(), path.line.end());
+  for (std::size_t k = 1; k < path.along.size(); ++k) path.along[k] += more;
+}
 
 /// Distance to a chain over its radius there, the least.
 double radii_from(const AxisCurve& curve, const Vec3& p) {
@@ -216,9 +226,11 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
   tree.report.twigs = prune(graph, options.prune, clearance);
   merge_junctions(graph, clearance);
   trim_ends(graph, clearance);
+  const std::size_t first_cut = graph.vertices.size();
   tree.report.cuts = cut_loops(graph, clearance);
-  std::vector<Path> paths = paths_of(graph);
+  std::vector<Path> paths = paths_of(graph, first_cut);
   if (paths.empty()) return tree;
+  for (Path& path : paths) extend(path, surface);
   const double longest = paths.front().along.back();
   const double spacing = options.spacing ? *options.spacing / prepared.scaling.scale : longest / 40.0;
   tree.curves = Fitter(surface, options, spacing).run(std::move(paths));

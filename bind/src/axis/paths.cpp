@@ -83,7 +83,7 @@ class LongestChains {
 // farthest vertex x from v none, replacing the far half of the longest path, where the way from v meets it,
 // by the way to x would make a longer one. So two searches find it. What is left hangs on it, and is taken
 // apart by the same rule, a chain as long as can be from each vertex that a path runs through.
-std::vector<Path> paths_of(const BranchGraph& tree) {
+std::vector<Path> paths_of(const BranchGraph& tree, std::size_t first_cut) {
   std::vector<Path> out;
   if (tree.branches.empty()) return out;
   constexpr std::size_t none = ~std::size_t{0};
@@ -99,6 +99,8 @@ std::vector<Path> paths_of(const BranchGraph& tree) {
       for (const std::size_t b : chains.open(vertex))
         out.push_back(chains.take(vertex, chains.along(vertex, b), p));
   }
+  for (Path& path : out)
+    path.stays = {path.parent || path.vertices.front() >= first_cut, path.vertices.back() >= first_cut};
   return out;
 }
 
