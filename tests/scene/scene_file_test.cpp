@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tendril/dynamics/simulation.h>
 #include <tendril/scene/scene_file.h>
 
 #include <algorithm>
@@ -242,6 +243,58 @@ TEST(SceneReader, TheScenesOfTheTreeAreGood) {
     ++scenes;
   }
   EXPECT_GE(scenes, 5);
+}
+
+/// A stalk in gusty wind, of which the scene says speed and strength alone: in metres, or in millimetres,
+/// grams and milliseconds.
+Json stalk_in_wind(bool small) {
+  const double length = small ? 1e3 : 1.0, time = small ? 1e3 : 1.0, mass = small ? 1e3 : 1.0;
+  const double density = mass / std::pow(length, 3), speed = length / time;
+  Json scene = Json::parse(R"({"version": 1})");
+  scene["units"] = {
+      {"length", small ? "mm" : "m"}, {"mass", small ? "g" : "kg"}, {"time", small ? "ms" : "s"}};
+  scene["curve_pairs"] = Json::array({{
+      {"points", {{0, 0, 0}, {0, 0, 0.5 * length}}},
+      {"nodes", 6},
+      {"orientation", {1, 0, 0}},
+      {"material",
+       {{"young", 1e7 * mass / (length * time * time)}, {"poisson", 0.3}, {"density", 500 * density}}},
+      {"section", {{"type", "circular"}, {"radius", 0.004 * length}}},
+      {"mass_damping", 1.0 / time},
+      {"anchors", {{{"node", 0}}}},
+  }});
+  scene["forces"] = {{{"type", "wind"}, {"mean", {6 * speed, 0, 0}}, {"gust", 0.7}}};
+  scene["simulation"] = {{"duration", 0.4 * time}, {"tolerance", 1e-6}};
+  return scene;
+}
+
+Vec3 tip_after(const Json& json) {
+  const scene::SceneFile file = read(json);
+  const System system(file.scene);
+  Simulation simulation(system, system.rest_state(), file.options);
+  EXPECT_EQ(simulation.run(file.duration).stop, Stop::finished);
+  return simulation.pairs()[0].primary().value(1.0);
+}
+
+TEST(SceneReader, WhatIsNotSaidOfWindIsMeantInTheScenesUnits) {
+  const Vec3 tip = tip_after(stalk_in_wind(false)), small = 1e-3 * tip_after(stalk_in_wind(true));
+  EXPECT_GT(tip.x(), 0.05);
+  EXPECT_LT((tip - small).norm(), 1e-5);
+
+  Json words = stalk_in_wind(true);
+  words["units"] = {{"length", "0.5 mm"}, {"mass", "pound"}, {"time", "minutes"}};
+  EXPECT_NO_THROW(read(words));
+  for (const char* unknown : {"cubit", "", "-1 mm", "1e999 mm", "x mm", "mm m"}) {
+    words["units"]["length"] = unknown;
+    EXPECT_THROW(read(words), scene::SceneError) << unknown;
+  }
+  words["forces"][0]["air_density"] = 1e-6;
+  EXPECT_THROW(read(words), scene::SceneError);
+  words["forces"][0]["gust_frequency"] = 0.001;
+  EXPECT_NO_THROW(read(words));
+  words["units"].erase("mass");
+  words["forces"][0].erase("air_density");
+  EXPECT_THROW(read(words), scene::SceneError);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <tendril/dynamics/forces.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tendril::scene {
@@ -53,11 +54,24 @@ Signal read_signal(const JsonNode& signal) {
   return table.locate([&] { return Signal::table(entries); });
 }
 
-WindOptions read_wind(const JsonNode& force) {
+/// A default has a meaning in metres, kilograms and seconds alone.
+void refuse_without_units(const JsonNode& force, const std::string& key, const std::string& otherwise) {
+  force.refuse("'" + key + "' is not given, and its " + otherwise + " cannot be said in the scene's units",
+               "'" + key + "', or units of length, mass and time by their usual words, such as mm, kg and s");
+}
+
+WindOptions read_wind(const JsonNode& force, const std::optional<Units>& units) {
   WindOptions wind;
+  if (units) {
+    wind.air_density *= std::pow(units->length, 3) / units->mass;
+    wind.gust_frequency *= units->time;
+  }
   wind.mean = force.at("mean").vec3();
   wind.gust = force.number_or("gust", wind.gust);
   wind.gust_frequency = force.number_or("gust_frequency", wind.gust_frequency);
+  if (!units && !force.has("air_density")) refuse_without_units(force, "air_density", "1.2 kg/m^3");
+  if (!units && wind.gust > 0.0 && !force.has("gust_frequency"))
+    refuse_without_units(force, "gust_frequency", "1 Hz");
   if (force.has("waves")) wind.waves = static_cast<int>(force.at("waves").integer(1, 1000));
   if (force.has("seed")) wind.seed = static_cast<std::uint64_t>(force.at("seed").integer(0, 1L << 52));
   wind.air_density = force.number_or("air_density", wind.air_density);
@@ -70,12 +84,13 @@ WindOptions read_wind(const JsonNode& force) {
 }  // namespace
 
 std::shared_ptr<const Force> read_force(const JsonNode& force, const std::vector<Rod>& rods,
-                                        const std::vector<std::string>& names) {
+                                        const std::vector<std::string>& names,
+                                        const std::optional<Units>& units) {
   const std::string type = force.at("type").text();
   refuse_other_keys(force, type);
   return force.locate([&]() -> std::shared_ptr<const Force> {
     if (type == "gravity") return std::make_shared<Gravity>(force.at("acceleration").vec3());
-    if (type == "wind") return std::make_shared<Wind>(read_wind(force));
+    if (type == "wind") return std::make_shared<Wind>(read_wind(force, units));
     const std::size_t rod = read_name(force.at("curve_pair"), names);
     const std::size_t node = read_node(force.at("node"), rods[rod]);
     if (type == "pull") {

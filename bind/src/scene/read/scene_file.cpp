@@ -82,8 +82,9 @@ void read_all_anchors(const JsonNode& list, SceneFile& out) {
 }
 
 void read_forces(const JsonNode& list, SceneFile& out) {
+  const std::optional<Units> units = units_of(out.units);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    out.scene.forces.push_back(read_force(list.at(i), out.scene.rods, out.names));
+    out.scene.forces.push_back(read_force(list.at(i), out.scene.rods, out.names, units));
     out.force_places.push_back(list.at(i).pointer());
   }
 }
