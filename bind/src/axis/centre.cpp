@@ -10,15 +10,16 @@ namespace tendril::axis {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr double kAside = 0.25;    ///< sides of which one is nearer by this share are left alone
-constexpr double kThick = 3.0;     ///< a limb's width, in clearances nearby
-constexpr double kThrough = 1e-6;  ///< beyond a surface just met
-constexpr std::size_t kNear = 8;   ///< points either way
-constexpr std::size_t kRays = 16;  ///< round a point, to see a limb's section
-constexpr double kSeen = 2.5;      ///< the longest ray of a limb's section, in the shortest
-constexpr double kRound = 1.15;    ///< the longest radius of a round section, in the shortest
-constexpr double kNotRound = 1.3;  ///< of one that is not
-constexpr double kShort = 0.05;    ///< radii that an end may be short of where it should be
+constexpr double kAside = 0.25;            ///< sides of which one is nearer by this share are left alone
+constexpr double kThick = 3.0;             ///< a limb's width, in clearances nearby
+constexpr double kThrough = 1e-6;          ///< beyond a surface just met
+constexpr std::size_t kNear = 8;           ///< points either way
+constexpr std::size_t kRays = 16;          ///< round a point, to see a limb's section
+constexpr std::size_t kFarthestApart = 7;  ///< from ray to ray: most sections are given up after a few
+constexpr double kSeen = 2.5;              ///< the longest ray of a limb's section, in the shortest
+constexpr double kRound = 1.15;            ///< the longest radius of a round section, in the shortest
+constexpr double kNotRound = 1.3;          ///< of one that is not
+constexpr double kShort = 0.05;            ///< radii that an end may be short of where it should be
 
 Vec3 tangent(const Line& line, std::size_t k) {
   const std::size_t from = k < 3 ? 0 : k - 3, to = std::min(k + 3, line.size() - 1);
@@ -69,14 +70,18 @@ double longest_in_shortest(const Section& section, const Vec3& p) {
 std::optional<Section> section_at(const Surface& surface, const Vec3& p, const Vec3& t) {
   const Vec3 x = t.unitOrthogonal(), y = t.cross(x);
   Section section;
-  for (std::size_t i = 0; i < kRays; ++i) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (std::size_t k = 0; k < kRays; ++k) {
+    const std::size_t i = kFarthestApart * k % kRays;
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(kRays);
     const Vec3 d = std::cos(angle) * x + std::sin(angle) * y;
     const std::optional<double> hit = surface.first_hit(p, d);
-    if (!hit || !(*hit > 0.0)) return std::nullopt;
+    if (!hit) return std::nullopt;
+    shortest = std::min(shortest, *hit);
+    longest = std::max(longest, *hit);
+    if (!(longest <= kSeen * shortest)) return std::nullopt;
     section[i] = *hit * d;
   }
-  if (longest_in_shortest(section, Vec3::Zero()) > kSeen) return std::nullopt;
   return section;
 }
 
@@ -156,11 +161,14 @@ void put_half_way(Line& line, const Surface& surface, const Stays& stays) {
 }
 
 /// Points of round limbs.
-void put_in_middle(Line& line, const Surface& surface, const Stays& stays) {
+/// \param round  which may be; those that are not are taken out
+void put_in_middle(Line& line, const Surface& surface, const Stays& stays, std::vector<char>& round) {
   const std::vector<double> clearance = clearances(line, surface);
   std::vector<Vec3> moves(line.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < line.size(); ++k)
-    if (clearance[k] > 0.0) moves[k] = to_round_middle(surface, line[k], tangent(line, k));
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (round[k] && clearance[k] > 0.0) moves[k] = to_round_middle(surface, line[k], tangent(line, k));
+    round[k] = moves[k] != Vec3::Zero();
+  }
   const double step = (line[1] - line[0]).norm();
   moves = smoothed(moves, clearance, std::max(step, std::numeric_limits<double>::min()));
   if (stays.first) moves.front().setZero();
@@ -173,7 +181,8 @@ void put_in_middle(Line& line, const Surface& surface, const Stays& stays) {
 Line centred(const Line& line, const Surface& surface, const Stays& stays) {
   Line out = line;
   for (int round = 0; round < kRounds; ++round) put_half_way(out, surface, stays);
-  for (int round = 0; round < kRounds; ++round) put_in_middle(out, surface, stays);
+  std::vector<char> round(out.size(), 1);
+  for (int k = 0; k < kRounds; ++k) put_in_middle(out, surface, stays, round);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <tendril/base/error.h>
 #include <tendril/curve/closest_point.h>
 #include <tendril/curve/fit.h>
+#include <tendril/curve/frame_jump.h>
 #include <tendril/curve/reference_frames.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@ constexpr std::size_t kSamples = 200;   ///< of a path to be fitted
 constexpr double kLeastCoverage = 0.9;  ///< see AxisStatus::uncovered
 constexpr double kCovered = 3.0;        ///< radii, see AxisReport::coverage
 constexpr int kTries = 3;  ///< at a curve within the surface, each twice as close to the skeleton
+constexpr double kLooser = 8.0, kLoosest = 512.0;  ///< of the tolerance, for a curve that does not fold
 
 void check(const AxisOptions& options) {
   const auto require = [](bool right, const char* name, double value, const char* expected) {
@@ -52,10 +54,7 @@ class Fitter {
         joint = joint_of(path, paths[*path.parent]);
         path.line.front() = curves_[joint->parent].points[joint->node];
       }
-      AxisCurve curve = fit_within(path);
-      curve.joint = joint;
-      orient(curve);
-      curves_.push_back(std::move(curve));
+      curves_.push_back(fit_within(path, joint));
     }
     return std::move(curves_);
   }
@@ -67,22 +66,33 @@ class Fitter {
     return {*path.parent, nodes_[*path.parent][static_cast<std::size_t>(at - parent.vertices.begin())]};
   }
 
-  AxisCurve fit_within(const Path& path) {
-    const Line samples = centred(evenly(path.line, kSamples), surface_, path.stays);
+  AxisCurve fit_within(const Path& path, const std::optional<AxisJoint>& joint) {
+    const Line line = evenly(path.line, kSamples), samples = centred(line, surface_, path.stays);
     const std::vector<double> width = half_widths(samples, surface_);
     std::optional<AxisCurve> best;
     nodes_.emplace_back();
-    double closer = 1.0;
-    for (int k = 0; k < kTries && (!best || best->outside > 0 || best->strays > 1.0); ++k, closer *= 0.5) {
+    const auto rank = [](const AxisCurve& curve) {
+      return std::make_tuple(curve.folds, curve.outside, curve.strays);
+    };
+    const auto try_fit = [&](const Line& to, double closer, double tolerance) {
       const Spread spread = spread_nodes(path, closer * spacing_);
-      const BSpline fitted = fit(samples, width, closer * options_.tolerance);
+      const BSpline fitted = fit(to, width, tolerance);
       AxisCurve curve;
+      curve.joint = joint;
       for (const double t : spread.parameters) curve.points.push_back(fitted.value(t));
       measure(curve, samples, width);
-      if (best && std::tie(curve.outside, curve.strays) >= std::tie(best->outside, best->strays)) continue;
+      if (best && rank(curve) >= rank(*best)) return;
       best = std::move(curve);
       nodes_.back() = spread.node_of_vertex;
+    };
+    double closer = 1.0;
+    for (int k = 0; k < kTries && (!best || best->folds || best->outside > 0 || best->strays > 1.0); ++k) {
+      try_fit(samples, closer, closer * options_.tolerance);
+      closer *= 0.5;
     }
+    // Where a wall is thin and the body wide, samples may jump to and fro: then near the skeleton as it was.
+    for (double loose = 1.0; best->folds && loose <= kLoosest; loose *= kLooser)
+      try_fit(line, 1.0, loose * options_.tolerance);
     return *best;
   }
 
@@ -99,6 +109,8 @@ class Fitter {
       curve.length += (curve.points[k] - curve.points[k - 1]).norm();
       if (!surface_.holds(projector.curve().value(0.5 * (at[k - 1] + at[k])))) ++curve.outside;
     }
+    orient(curve);
+    curve.folds = find_frame_jump(pair_of(curve), at).has_value();
   }
 
   /// Where the first frame's side points: across the whole of the first curve, and as the parent's for the
@@ -242,6 +254,13 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
                   " % of the skin is farther from every curve than three times its radius, up to " +
                   std::to_string(std::lround(tree.report.farthest_radii)) + " times";
   }
+  const auto folds =
+      std::find_if(tree.curves.begin(), tree.curves.end(), [](const auto& c) { return c.folds; });
+  if (folds != tree.curves.end()) {
+    tree.status = AxisStatus::folded;
+    tree.reason = "a curve folds back, number " + std::to_string(folds - tree.curves.begin()) +
+                  " from 0: nothing can be bound to it";
+  }
   return tree;
 }
 
@@ -251,6 +270,8 @@ const char* to_string(AxisStatus status) {
       return "found";
     case AxisStatus::uncovered:
       return "uncovered";
+    case AxisStatus::folded:
+      return "folded";
     case AxisStatus::time_limit:
       return "time_limit";
     case AxisStatus::diverged:

@@ -81,7 +81,8 @@ OrderedJson to_json(const axis::AxisTree& tree, double seconds) {
                       {"nodes", curve.points.size()},
                       {"length", curve.length},
                       {"strays", curve.strays},
-                      {"outside", curve.outside}});
+                      {"outside", curve.outside},
+                      {"folds", curve.folds}});
   }
   return {{"status", axis::to_string(tree.status)},
           {"reason", tree.reason},
@@ -106,6 +107,7 @@ void tell(const AxisArguments& options, const axis::AxisTree& tree, double secon
     const axis::AxisCurve& curve = tree.curves[k];
     std::printf("  %-10s %4zu nodes, length %-8.4g strays %.2f radii, %zu outside", name_of(k).c_str(),
                 curve.points.size(), curve.length, curve.strays, curve.outside);
+    if (curve.folds) std::printf(", folds back");
     if (curve.joint)
       std::printf(", from node %zu of %s", curve.joint->node, name_of(curve.joint->parent).c_str());
     std::printf("\n");

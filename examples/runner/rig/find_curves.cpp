@@ -26,7 +26,8 @@ std::vector<RigCurve> find_curves(const bind::PolygonMesh& mesh, const std::stri
     if (error.place() != "mesh") throw;
     throw InvalidInput(path, error.reason(), error.expected() + " (--close, --largest-part)");
   }
-  if (tree.status == axis::AxisStatus::uncovered) {
+  // Of one that folds, whoever measures it says where.
+  if (tree.status == axis::AxisStatus::uncovered || tree.status == axis::AxisStatus::folded) {
     doubt = tree.reason;
   } else if (tree.status != axis::AxisStatus::found) {
     throw InvalidInput(path,

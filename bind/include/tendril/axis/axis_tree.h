@@ -28,6 +28,7 @@ struct AxisCurve {
   double length = 0.0;             ///< of the chain
   double strays = 0.0;             ///< largest distance of skeleton and curve, over that to the surface there
   std::size_t outside = 0;  ///< nodes, and points of the curve half way between them, outside the surface
+  bool folds = false;       ///< its frames do not carry on (curve/frame_jump.h): nothing can be bound to it
 };
 
 /// A piece of the skeleton cut off as spurious.
@@ -62,6 +63,7 @@ struct AxisReport {
 enum class AxisStatus {
   found,       ///< at least one curve, and the skin has curves near
   uncovered,   ///< curves, but AxisReport::coverage is below 0.9
+  folded,      ///< curves, but AxisCurve::folds is set of some
   time_limit,  ///< no curves: see AxisOptions::time_limit
   diverged     ///< no curves: the contraction left the finite numbers
 };
@@ -71,7 +73,7 @@ TENDRIL_AXIS_API const char* to_string(AxisStatus status);
 /// A tree of curves. Parents come before their children; the first curve is the longest path through the
 /// skeleton.
 struct AxisTree {
-  AxisStatus status = AxisStatus::found;  ///< the curves are empty unless found or uncovered
+  AxisStatus status = AxisStatus::found;  ///< the curves are empty unless found, uncovered or folded
   std::string reason;                     ///< one sentence, unless found
   std::vector<AxisCurve> curves;          ///< parents first
   AxisReport report;                      ///< filled as far as the work went
