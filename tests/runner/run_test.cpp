@@ -90,6 +90,29 @@ TEST(Run, PointsOutOfReachStayWhereTheyAre) {
   EXPECT_GT((last.points[middle] - first.points[middle]).norm(), 1e-6);
 }
 
+TEST(Run, SaysWhatTheMotionSpoils) {
+  const Folder folder;
+  folder.write("tube.off", tube_off());
+  Json scene = Json::parse(full_scene());
+  folder.write("scene.json", scene.dump());
+  const Outcome whole = folder.run("run scene.json --out whole --no-pictures");
+  EXPECT_EQ(whole.err, "");
+  EXPECT_EQ(Json::parse(bytes_of(folder / "whole/summary.json")).at("distortion").at("spoilt_area"), 0.0);
+
+  // What is out of reach stays, and all else is carried away from it.
+  scene["curve_pairs"][0]["reach"] = Json::parse("[1, 1, 0.01]");
+  scene["curve_pairs"][0]["anchors"][0]["translation"] = {{"velocity", {30, 0, 0}}};
+  folder.write("scene.json", scene.dump());
+  const Outcome torn = folder.run("run scene.json --out torn --no-pictures");
+  ASSERT_EQ(torn.code, 0) << torn.err;
+  EXPECT_NE(torn.err.find("note: at time 0.1 the motion spoils "), std::string::npos) << torn.err;
+  const Json found = Json::parse(bytes_of(folder / "torn/summary.json")).at("distortion");
+  EXPECT_GT(found.at("stretched"), 0);
+  EXPECT_GT(found.at("most_stretch"), 10.0);
+  EXPECT_EQ(found.at("time"), 0.1);
+  EXPECT_GT(found.at("zone").at("radius"), 0.0);
+}
+
 TEST(Run, ExitsWithOneAndTheReasonWhenTheWorkLimitIsTooSmall) {
   const Folder folder;
   Json scene = Json::parse(full_scene());

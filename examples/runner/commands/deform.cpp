@@ -3,6 +3,7 @@
 #include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
+#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/bind/distortion.h>
@@ -49,14 +50,10 @@ void deform_at_equal_length(const bind::Binding& binding, const Axes& axes, Muta
 /// What the pose spoils, in a sentence; nothing where that is nothing.
 void warn(const std::string& out, const bind::Distortion& d) {
   if (d.zones.empty()) return;
-  const bind::SpoiltZone& worst = d.zones.front();
-  std::fprintf(
-      stderr,
-      "tendril: note: %s: the pose spoils %.2g %% of the mesh: %zu triangle(s) folded, %zu stretched and "
-      "%zu crushed more than tenfold, in %zu zone(s), the largest about %g %g %g; a wider --band spreads "
-      "a steep place, 'tendril bind' tells it from a tear\n",
-      out.c_str(), 100.0 * d.spoilt, d.folded, d.stretched, d.crushed, d.zones.size(), worst.centre.x(),
-      worst.centre.y(), worst.centre.z());
+  std::fprintf(stderr,
+               "tendril: note: %s: the pose spoils %s; a wider --band spreads a steep place, 'tendril bind' "
+               "tells it from a tear\n",
+               out.c_str(), describe(d).c_str());
 }
 
 /// What a mesh encloses, where it is closed.

@@ -8,6 +8,7 @@
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
+#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/base/number.h>
@@ -156,10 +157,13 @@ int run(const RunArguments& options) {
   }
   phases.take(scene.seconds());
   const std::string summary =
-      extras.in(scene::summary_json(scene, report, {recorder.files(), phases.named()}));
+      extras.in(scene::summary_json(scene, report, {recorder.files(), phases.named(), recorder.spoilt()}));
   write_file_whole(options.out + "/summary.json", summary + "\n");
   tell(options, summary, scene, phases, report);
   extras.tell(options.json);
+  if (const auto& spoilt = recorder.spoilt(); spoilt && spoilt->what.spoilt > kSpoilt)
+    std::cerr << "tendril: note: at time " << spoilt->time << " the motion spoils " << describe(spoilt->what)
+              << "; 'tendril bind' tells a tear from what is bent too sharply\n";
   if (const std::string left = recorder.left_over(); !left.empty())
     std::cerr << "tendril: note: " << options.out << " holds frames of another run, from " << left << " on\n";
   return report.stop == Stop::finished ? kDone : kNoSuccess;

@@ -6,6 +6,7 @@
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
+#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/dynamics/statics.h>
@@ -106,6 +107,9 @@ std::vector<std::string> write_state(const StaticsArguments& options, scene::Sce
   for (std::size_t a = 0; a < now.supports.size() && a < found.support.size(); ++a)
     now.supports[a] = {found.support[a], found.torque[a]};
   recorder.take(now, run.mesh());
+  if (const auto& spoilt = recorder.spoilt(); spoilt && spoilt->what.spoilt > kSpoilt)
+    std::cerr << "tendril: note: the equilibrium spoils " << describe(spoilt->what)
+              << "; 'tendril bind' tells a tear from what is bent too sharply\n";
   recorder.write_trajectory();
   if (!options.no_pictures) {
     const Phases::Timer timer(phases, Phases::draw);

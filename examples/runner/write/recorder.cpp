@@ -48,9 +48,18 @@ void Recorder::take(const scene::Snapshot& snapshot, const scene::BoundMesh* mes
     write(frame_name(count_), bind::ply_bytes(mesh->mesh(), {.float32 = single}));
   }
   look(snapshot);
-  if (std::binary_search(numbers_.begin(), numbers_.end(), count_)) panels_.push_back(snapshot);
+  if (std::binary_search(numbers_.begin(), numbers_.end(), count_)) {
+    panels_.push_back(snapshot);
+    if (mesh != nullptr) judge(snapshot.time, *mesh);
+  }
   last_ = snapshot;
   ++count_;
+}
+
+void Recorder::judge(double time, const scene::BoundMesh& mesh) {
+  const Phases::Timer timer(phases_, Phases::update);
+  bind::Distortion now = mesh.distortion();
+  if (!spoilt_ || now.spoilt > spoilt_->what.spoilt) spoilt_ = {time, std::move(now)};
 }
 
 std::string Recorder::left_over() const {

@@ -5,6 +5,7 @@
 #include "write/phases.h"
 
 #include <tendril/scene/scene_run.h>
+#include <tendril/scene/summary.h>
 #include <tendril/scene/support_table.h>
 #include <tendril/scene/trajectory.h>
 
@@ -16,8 +17,8 @@ struct RecorderOptions {
   bool double_precision = false;
 };
 
-/// Takes a run's snapshots: writes the mesh as a frame, notes the trajectory, and keeps those that the
-/// pictures show. Every file it writes is whole.
+/// Takes a run's snapshots: writes the mesh as a frame, notes the trajectory, keeps those that the pictures
+/// show, and sees whether these spoil the mesh. Every file it writes is whole.
 class Recorder {
  public:
   /// The scene's file and the time spent are kept by reference.
@@ -33,6 +34,8 @@ class Recorder {
   /// Those of the contact sheet.
   const std::vector<scene::Snapshot>& panels() const { return panels_; }
   const scene::Snapshot& last() const { return last_; }
+  /// What spoils the mesh most, of the contact sheet's moments; none without a mesh.
+  const std::optional<scene::SpoiltMoment>& spoilt() const { return spoilt_; }
   Camera camera() const { return fit_.camera(); }
 
   /// And the tables of solids, contacts and supports, where the scene has any or asks for them.
@@ -45,6 +48,7 @@ class Recorder {
 
  private:
   void look(const scene::Snapshot& snapshot);
+  void judge(double time, const scene::BoundMesh& mesh);
 
   const scene::SceneFile& file_;
   RecorderOptions options_;
@@ -58,6 +62,7 @@ class Recorder {
   std::vector<std::string> files_;
   std::vector<scene::Snapshot> panels_;
   scene::Snapshot last_;
+  std::optional<scene::SpoiltMoment> spoilt_;
 };
 
 }  // namespace tendril::runner

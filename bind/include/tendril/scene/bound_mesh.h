@@ -1,7 +1,7 @@
 #pragma once
 
 #include <tendril/base/export.h>
-#include <tendril/bind/binding.h>
+#include <tendril/bind/distortion.h>
 #include <tendril/bind/polygon_mesh.h>
 #include <tendril/scene/scene_file.h>
 
@@ -38,6 +38,10 @@ class TENDRIL_SCENE_API BoundMesh {
   /// \param threads  1 to 256; the same bits for any number
   void update(std::span<const CurvePair> pairs, int threads = 1);
 
+  /// What the last update does to the mesh's triangles (bind/distortion.h); nothing before the first. Those
+  /// between vertices that follow and others out of reach count. Cost: O(points + corners), a frame a point.
+  bind::Distortion distortion() const;
+
   /// As of the last update; at rest before the first.
   const bind::PolygonMesh& mesh() const { return mesh_; }
   /// What the mesh is bound by; to the curve-pairs of SceneFile::bound_to, in their order.
@@ -46,11 +50,14 @@ class TENDRIL_SCENE_API BoundMesh {
   std::span<const std::size_t> out_of_reach() const { return still_; }
 
  private:
+  std::vector<Vec3> rest_;             ///< the mesh's points
+  std::vector<CurvePair> rest_pairs_;  ///< that it follows
   bind::PolygonMesh mesh_;
   bind::Binding binding_;
   std::vector<std::size_t> bound_to_;
   std::vector<std::size_t> still_;
   std::vector<Vec3> still_at_;
+  std::vector<CurvePair> posed_;  ///< of the last update
 };
 
 }  // namespace tendril::scene

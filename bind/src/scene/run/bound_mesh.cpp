@@ -12,8 +12,8 @@ RodCurves curves_of(const SceneFile& file) {
   return RodCurves(file.scene.rods, file.options.degree, file.options.parametrisation);
 }
 
-bind::Binding bind_at_rest(const SceneFile& file, const bind::PolygonMesh& mesh, bind::BindMode mode,
-                           int threads) {
+/// Those that the mesh follows.
+std::vector<CurvePair> pairs_at_rest(const SceneFile& file) {
   const RodCurves curves = curves_of(file);
   std::vector<CurvePair> rest;
   for (const std::size_t k : file.bound_to) {
@@ -22,6 +22,11 @@ bind::Binding bind_at_rest(const SceneFile& file, const bind::PolygonMesh& mesh,
       throw in_scene(file, InvalidInput("rods[" + std::to_string(k) + "]", describe(*jump, "nodes"),
                                         "frames that carry on along what the mesh follows"));
   }
+  return rest;
+}
+
+bind::Binding bind_at_rest(const SceneFile& file, const std::vector<CurvePair>& rest,
+                           const bind::PolygonMesh& mesh, bind::BindMode mode, int threads) {
   try {
     return {rest, mesh, bind::BindOptions{.mode = mode, .threads = threads}};
   } catch (const InvalidInput& error) {
@@ -90,8 +95,10 @@ bind::PolygonMesh read_scene_mesh(const SceneFile& file, std::vector<std::string
 }
 
 BoundMesh::BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMode mode, int threads)
-    : mesh_(std::move(mesh)),
-      binding_(bind_at_rest(file, mesh_, mode, threads)),
+    : rest_(mesh.points),
+      rest_pairs_(pairs_at_rest(file)),
+      mesh_(std::move(mesh)),
+      binding_(bind_at_rest(file, rest_pairs_, mesh_, mode, threads)),
       bound_to_(file.bound_to),
       still_(beyond_reach(binding_, reaches_of(file))) {
   mesh_.point_normals.clear();
@@ -99,10 +106,17 @@ BoundMesh::BoundMesh(const SceneFile& file, bind::PolygonMesh mesh, bind::BindMo
 }
 
 void BoundMesh::update(std::span<const CurvePair> pairs, int threads) {
-  std::vector<CurvePair> posed;
-  for (const std::size_t k : bound_to_) posed.push_back(pairs[k]);
-  binding_.update(posed, mesh_.points, threads);
+  posed_.clear();
+  for (const std::size_t k : bound_to_) posed_.push_back(pairs[k]);
+  binding_.update(posed_, mesh_.points, threads);
   for (std::size_t i = 0; i < still_.size(); ++i) mesh_.points[still_[i]] = still_at_[i];
+}
+
+bind::Distortion BoundMesh::distortion() const {
+  if (posed_.empty()) return {};
+  bind::PolygonMesh at_rest = mesh_;
+  at_rest.points = rest_;
+  return bind::measure_distortion(binding_, rest_pairs_, at_rest, posed_, mesh_.points);
 }
 
 }  // namespace tendril::scene

@@ -86,6 +86,23 @@ void add_mesh(OrderedJson& out, const BoundMesh* bound) {
   out["binding"] = to_json(bound->binding().report(), points, bound->out_of_reach().size());
 }
 
+/// Where the largest zone is, of the mesh at rest.
+OrderedJson to_json(const SpoiltMoment& moment) {
+  const bind::Distortion& d = moment.what;
+  OrderedJson out{{"time", moment.time},
+                  {"spoilt_area", d.spoilt},
+                  {"folded", d.folded},
+                  {"stretched", d.stretched},
+                  {"crushed", d.crushed},
+                  {"most_stretch", d.most_stretch},
+                  {"least_stretch", d.least_stretch},
+                  {"zone_count", d.zones.size()}};
+  if (d.zones.empty()) return out;
+  const Vec3& at = d.zones.front().centre;
+  out["zone"] = {{"centre", {at.x(), at.y(), at.z()}}, {"radius", d.zones.front().radius}};
+  return out;
+}
+
 OrderedJson wall(const RunNotes& notes) {
   OrderedJson out;
   double total = 0.0;
@@ -104,6 +121,7 @@ std::string summary_json(const SceneRun& run, const Report& report, const RunNot
   add_steps(out, run.file(), report);
   add_scene(out, run.file(), run.system());
   add_mesh(out, run.mesh());
+  if (notes.spoilt) out["distortion"] = to_json(*notes.spoilt);
   out["left_out"] = left_out(run);
   out["outputs"] = run.outputs();
   out["files"] = notes.files;
