@@ -3,7 +3,6 @@
 #include "read/axes.h"
 #include "read/mesh_reader.h"
 #include "write/json_output.h"
-#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/bind/distortion.h>

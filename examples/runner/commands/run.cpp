@@ -5,10 +5,10 @@
 #include "rig/of_mesh.h"
 #include "write/folder.h"
 #include "write/interrupt.h"
+#include "write/json_output.h"
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
-#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/base/number.h>

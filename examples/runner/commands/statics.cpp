@@ -6,7 +6,6 @@
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
-#include "write/spoilt.h"
 
 #include <tendril/base/file.h>
 #include <tendril/dynamics/statics.h>

@@ -1,6 +1,7 @@
 #include "write/json_output.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 
 namespace tendril::runner {
@@ -37,6 +38,18 @@ OrderedJson to_json(const bind::Distortion& distortion) {
           {"spoilt_area", distortion.spoilt},
           {"zone_count", distortion.zones.size()},
           {"zones", zones}};
+}
+
+std::string describe(const bind::Distortion& d) {
+  const bind::SpoiltZone& worst = d.zones.front();
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "%.2g %% of the mesh: %zu triangle(s) folded, %zu stretched and %zu crushed more than tenfold, in "
+      "%zu zone(s), the largest about %g %g %g",
+      100.0 * d.spoilt, d.folded, d.stretched, d.crushed, d.zones.size(), worst.centre.x(), worst.centre.y(),
+      worst.centre.z());
+  return text;
 }
 
 void print(const OrderedJson& value) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace tendril::runner {
@@ -22,6 +23,13 @@ OrderedJson to_json(const std::vector<std::uint32_t>& ids);
 
 /// What a pose spoils, with the hundred largest zones and some faces of each.
 OrderedJson to_json(const bind::Distortion& distortion);
+
+/// A share of the mesh's area that is worth a word where a whole run is concerned: what a verdict of `right`
+/// allows.
+constexpr double kSpoilt = 1e-3;
+
+/// The same for a message: "2 % of the mesh: 3 triangle(s) folded, ...". Of at least one zone.
+std::string describe(const bind::Distortion& distortion);
 
 /// Writes the value and a line end to standard output.
 void print(const OrderedJson& value);
