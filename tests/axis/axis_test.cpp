@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <tendril/axis/find_axis.h>
+#include <tendril/base/error.h>
 
 #include <memory>
 
@@ -194,6 +195,8 @@ TEST(Axis, SpacingIsAsAsked) {
   options.spacing = 0.25;
   const axis::AxisTree tree = axis::find_axis(capsule(), options);
   EXPECT_EQ(tree.curves[0].points.size(), 9U);
+  options.spacing = 1e-9;
+  EXPECT_THROW(axis::find_axis(capsule(), options), InvalidInput);
 }
 
 TEST(Axis, PolygonsBecomeFans) {

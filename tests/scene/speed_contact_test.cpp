@@ -43,6 +43,23 @@ TEST(ContactBySpeed, BallsExchangeTheirVelocitiesWithoutGravity) {
   EXPECT_NEAR((last[1] - before[1]).x() / 0.02, 3.0, 3e-3);
 }
 
+/// A press that no rod can give way to: the run stops, and says where.
+TEST(ContactBySpeed, WhereNothingCanGiveWayTheNodeIsNamed) {
+  Json scene = scene_of("[[0, 3, 0.5], [0.5, 3, 0.5]]");
+  scene["curve_pairs"][0]["anchors"] = Json::parse(R"([{"node": 0, "hold": "both"}])");
+  Json pressed = scene_of("[[0, 0, 0.05], [0.5, 0, 0.05]]")["curve_pairs"][0];
+  pressed["name"] = "pressed";
+  scene["curve_pairs"].push_back(pressed);
+  scene["bodies"] = Json::parse(R"([
+    {"shape": {"type": "half_space"}, "position": [0, 0, 0]},
+    {"shape": {"type": "box", "size": [1, 1, 0.1]}, "position": [0.25, 0, 0.2],
+     "translation": {"velocity": [0, 0, -1]}}])");
+  scene::SceneRun run(parsed(scene));
+  const Report report = run.run();
+  EXPECT_EQ(report.stop, Stop::step_underflow);
+  EXPECT_NE(report.reason.find("; the error is largest at rod 1 node "), std::string::npos) << report.reason;
+}
+
 TEST(ContactBySpeed, ABoxThatIsDrivenFastSweepsARodAsideAndGoesThroughNone) {
   Json scene = scene_of("[[0, 0, 0], [0, 0, 1]]");
   let_fall(scene);

@@ -1,5 +1,6 @@
 #include <tendril/axis/find_axis.h>
 #include <tendril/base/error.h>
+#include <tendril/base/number.h>
 #include <tendril/curve/closest_point.h>
 #include <tendril/curve/fit.h>
 #include <tendril/curve/frame_jump.h>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kSamples = 200;   ///< of a path to be fitted
 constexpr double kLeastCoverage = 0.9;  ///< see AxisStatus::uncovered
+constexpr double kMostNodes = 1e4;      ///< of a curve
 constexpr double kCovered = 3.0;        ///< radii, see AxisReport::coverage
 constexpr int kTries = 3;  ///< at a curve within the surface, each twice as close to the skeleton
 constexpr double kLooser = 8.0, kLoosest = 512.0;  ///< of the tolerance, for a curve that does not fold
@@ -244,6 +246,10 @@ AxisTree find_axis(const bind::PolygonMesh& mesh, const AxisOptions& options) {
   if (paths.empty()) return tree;
   for (Path& path : paths) extend(path, surface);
   const double longest = paths.front().along.back();
+  if (options.spacing && *options.spacing * kMostNodes < longest * prepared.scaling.scale)
+    throw InvalidInput("spacing", shortest(*options.spacing),
+                       "at least a ten thousandth of the longest axis, " +
+                           shortest(longest * prepared.scaling.scale / kMostNodes));
   const double spacing = options.spacing ? *options.spacing / prepared.scaling.scale : longest / 40.0;
   tree.curves = Fitter(surface, options, spacing).run(std::move(paths));
   measure_coverage(prepared.mesh, tree.curves, tree.report);
