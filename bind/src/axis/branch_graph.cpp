@@ -7,6 +7,7 @@ namespace tendril::axis {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
+constexpr double kWavers = 0.5;      ///< of the first point's clearance
 constexpr double kBlunt = 0.4;       ///< a limb narrows less steeply, a way into a corner more
 constexpr double kFork = 1.3;        ///< prongs whose reaches differ by less are alike
 constexpr double kAlike = 1.15;      ///< limbs whose lengths differ by less are alike
@@ -168,15 +169,20 @@ std::array<Line, 2> cut_at(const Line& line, double length) {
 }
 
 /// How many of the first points of a line lie where it runs into a corner, at most to its middle: so far its
-/// clearance grows faster than kBlunt with the length.
+/// clearance grows faster than kBlunt with the length. The first few points may waver.
 std::size_t blunt(const Line& line, const Clearance& clearance) {
   const double half = 0.5 * length_of(line), first = clearance(line.front());
   double length = 0.0;
+  std::size_t found = 0;
   for (std::size_t k = 1; k + 1 < line.size(); ++k) {
     length += (line[k] - line[k - 1]).norm();
-    if (length > half || clearance(line[k]) - first < kBlunt * length) return k - 1;
+    if (length > half) break;
+    if (clearance(line[k]) - first >= kBlunt * length)
+      found = k;
+    else if (length > kWavers * first)
+      break;
   }
-  return 0;
+  return found;
 }
 
 struct Reached {

@@ -9,7 +9,7 @@
 namespace tendril::axis {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kRounds = 3, kMiddleRounds = 5;
 constexpr double kAside = 0.25;            ///< sides of which one is nearer by this share are left alone
 constexpr double kThick = 3.0;             ///< a limb's width, in clearances nearby
 constexpr double kThrough = 1e-6;          ///< beyond a surface just met
@@ -182,7 +182,7 @@ Line centred(const Line& line, const Surface& surface, const Stays& stays) {
   Line out = line;
   for (int round = 0; round < kRounds; ++round) put_half_way(out, surface, stays);
   std::vector<char> round(out.size(), 1);
-  for (int k = 0; k < kRounds; ++k) put_in_middle(out, surface, stays, round);
+  for (int k = 0; k < kMiddleRounds; ++k) put_in_middle(out, surface, stays, round);
   return out;
 }
 

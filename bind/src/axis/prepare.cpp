@@ -17,6 +17,8 @@ namespace {
 using bind::PolygonMesh;
 using Triangle = std::array<std::uint32_t, 3>;
 
+constexpr double kGrid = 0x1p-30;   ///< of the diagonal
+constexpr double kCoarse = 64.0;    ///< so many times as high are all triangles that are put on it
 constexpr double kLargest = 1e100;  // distances are squared, and areas of them
 
 struct Soup {
@@ -328,7 +330,26 @@ UnitScaling scaling_of(Points points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  return {0.5 * low + 0.5 * high, std::exp2(std::ceil(std::log2((high - low).norm())))};
+  return {0.5 * low + 0.5 * high, (high - low).norm()};
+}
+
+double least_altitude(const Soup& soup) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : soup.faces) {
+    const Vec3 x = soup.points[b] - soup.points[a], y = soup.points[c] - soup.points[a];
+    least = std::min(least, x.cross(y).norm() / std::max({x.norm(), y.norm(), (y - x).norm()}));
+  }
+  return least;
+}
+
+/// To a diagonal of 1, and to multiples of kGrid: what the contraction collapses feels the last bit, so that
+/// the axes of one mesh were others in millimetres, or elsewhere. Not where triangles are as fine as that.
+UnitScaling scale_to_unit(Soup& soup) {
+  const UnitScaling scaling = scaling_of(soup.points);
+  for (Vec3& p : soup.points) p = (p - scaling.centre) / scaling.scale;
+  if (least_altitude(soup) > kCoarse * kGrid)
+    for (Vec3& p : soup.points) p = kGrid * (p / kGrid).array().round();
+  return scaling;
 }
 
 }  // namespace
@@ -346,10 +367,9 @@ Prepared prepare(const PolygonMesh& mesh, const AxisOptions& options, AxisReport
   if (options.close) report.closed_holes = close_holes(soup);
   require_fit(to_mesh(soup));
   report.turned = orient_outward(soup);
+  const UnitScaling scaling = scale_to_unit(soup);
   split_needles(soup, options.least_points);
   for (; soup.points.size() < options.least_points; ++report.splits) split_in_four(soup);
-  const UnitScaling scaling = scaling_of(soup.points);
-  for (Vec3& p : soup.points) p = (p - scaling.centre) / scaling.scale;
   return {to_mesh(std::move(soup)), scaling};
 }
 

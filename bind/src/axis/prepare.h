@@ -9,7 +9,7 @@ namespace tendril::axis {
 /// The map from the copy, of about unit size about the origin, back to the mesh: p = centre + scale q.
 struct UnitScaling {
   Vec3 centre = Vec3::Zero();
-  double scale = 1.0;  ///< a power of two
+  double scale = 1.0;  ///< the diagonal of its box
 
   Vec3 back(const Vec3& q) const { return centre + scale * q; }
 };
