@@ -19,9 +19,10 @@ struct AxisOptions {
   /// long within 15 %, and kept. At least 0; 0 keeps all.
   double prune = 2.0;
   /// Distance between the nodes of the curves, approximately; by default a fortieth of the longest curve.
-  /// Above 0.
+  /// At least a ten thousandth of that.
   std::optional<double> spacing;
-  /// Largest deviation of a fitted curve from the skeleton, relative to the distance to the surface there.
+  /// Largest deviation of a fitted curve from the skeleton drawn to the middle, relative to the distance to
+  /// the surface there.
   /// Above 0, at most 1.
   double tolerance = 0.15;
 

@@ -13,10 +13,14 @@ namespace tendril::axis {
 ///
 /// The skeleton's spurious end branches are pruned, each of its loops (handles of the surface) is cut open
 /// where the two shortest paths round it from the widest junction meet, its branches are joined to paths from
-/// the longest on, and each path is fitted by a cubic B-spline of as few control points as keep it within
-/// `tolerance` of the skeleton.
+/// the longest on, and free ends are carried on to where what is ahead is as far as what is beside. Each path
+/// is drawn to the middle of the limb where a section across it is round, or where it is far nearer to one
+/// side, and fitted by a cubic B-spline of as few control points as keep it within `tolerance` of that.
 ///
-/// Deterministic: the same mesh gives the same bits, in every run. Seconds for 10^5 points, in one thread.
+/// Deterministic: the same mesh gives the same bits, in every run. The mesh is scaled to a diagonal of 1, and
+/// its points put on a grid of 2^-30 unless triangles are less than 64 of that high, so that a change of
+/// units or of place, being rounding there, changes nothing but on the grid's borders. Seconds for 10^5
+/// points, in one thread.
 ///
 /// Throws InvalidInput("mesh", counts of all that is wrong, ...) unless the mesh, or the copy that the
 /// options allow to be made, is one closed, manifold, consistently oriented surface without faces of no area.
