@@ -51,6 +51,11 @@ TEST_F(Centred, DrawsALineThatIsALittleToOneSideToTheMiddle) {
   EXPECT_LT(farthest_off({held.begin() + 8, held.end()}), 0.1 * 0.06);
 }
 
+TEST_F(Centred, LeavesPointsInOnePlace) {
+  const axis::Line line(10, Vec3(0.1, 0.02, 0.0));
+  for (const Vec3& p : axis::centred(line, surface_, {})) EXPECT_EQ(p, line[0]);
+}
+
 TEST_F(Centred, LeavesALineThatRunsBeneathAFlank) {
   // Nothing nearby says that the limb is wider than three times its clearance of 0.05.
   EXPECT_NEAR(of(line_with(0.15, 0, 81))[40].y(), 0.15, 1e-12);

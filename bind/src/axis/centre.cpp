@@ -68,6 +68,7 @@ double longest_in_shortest(const Section& section, const Vec3& p) {
 /// What is seen of the surface from p across t; nothing where one way is much farther than another, as where
 /// a limb leaves a body.
 std::optional<Section> section_at(const Surface& surface, const Vec3& p, const Vec3& t) {
+  if (!(t.squaredNorm() > 0.5)) return std::nullopt;  // points in one place have no direction
   const Vec3 x = t.unitOrthogonal(), y = t.cross(x);
   Section section;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
