@@ -250,12 +250,12 @@ bool ChosenSteps::reject(const Aim& aim, std::optional<double> error, const Eval
   return false;
 }
 
-/// The node whose velocity the last step is most uncertain of.
-std::size_t ChosenSteps::least_certain() const {
-  std::size_t node = 0;
-  double most = -1.0;
+/// The node whose velocity the last step is most uncertain of; none where there was no step.
+std::optional<std::size_t> ChosenSteps::least_certain() const {
+  std::optional<std::size_t> node;
+  double most = 0.0;
   const auto nodes = static_cast<Eigen::Index>(system_.node_count());
-  for (Eigen::Index i = 0; i < nodes; ++i) {
+  for (Eigen::Index i = 0; i < nodes && error_.size() >= 6 * nodes; ++i) {
     const double error = error_.segment<3>(3 * (nodes + i)).norm();
     if (error > most) most = error, node = static_cast<std::size_t>(i);
   }
@@ -263,13 +263,13 @@ std::size_t ChosenSteps::least_certain() const {
 }
 
 void ChosenSteps::stop_without_step(const Evaluation& why) {
-  if (why.ok())
-    stop(Stop::step_underflow,
-         sentence("at time ", state_.time, ": no step above ", least_step(),
-                  " meets the tolerance; the error is largest at ", name_of(least_certain())));
-  else
-    stop(Stop::not_evaluable,
-         sentence("at time ", state_.time, ", ", name_of(why.node), ": ", describe(why.outcome)));
+  if (!why.ok())
+    return stop(Stop::not_evaluable,
+                sentence("at time ", state_.time, ", ", name_of(why.node), ": ", describe(why.outcome)));
+  const std::optional<std::size_t> node = least_certain();
+  stop(Stop::step_underflow,
+       sentence("at time ", state_.time, ": no step above ", least_step(), " meets the tolerance",
+                node ? "; the error is largest at " + name_of(*node) : std::string()));
 }
 
 void ChosenSteps::accept(const Aim& aim, double error) {

@@ -57,7 +57,7 @@ class ChosenSteps : public Controller {
   bool reject(const Aim& aim, std::optional<double> error, const Evaluation& why);
   void stop_without_step(const Evaluation& why);
   double least_step() const;
-  std::size_t least_certain() const;
+  std::optional<std::size_t> least_certain() const;
 
   /// What accepted steps cost since a time.
   struct Pace {
