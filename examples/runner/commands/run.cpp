@@ -5,7 +5,6 @@
 #include "rig/of_mesh.h"
 #include "write/folder.h"
 #include "write/interrupt.h"
-#include "write/json_output.h"
 #include "write/progress.h"
 #include "write/recorder.h"
 #include "write/run_pictures.h"
@@ -161,9 +160,7 @@ int run(const RunArguments& options) {
   write_file_whole(options.out + "/summary.json", summary + "\n");
   tell(options, summary, scene, phases, report);
   extras.tell(options.json);
-  if (const auto& spoilt = recorder.spoilt(); spoilt && spoilt->what.spoilt > kSpoilt)
-    std::cerr << "tendril: note: at time " << spoilt->time << " the motion spoils " << describe(spoilt->what)
-              << "; 'tendril bind' tells a tear from what is bent too sharply\n";
+  recorder.warn_of_spoilt("the motion");
   if (const std::string left = recorder.left_over(); !left.empty())
     std::cerr << "tendril: note: " << options.out << " holds frames of another run, from " << left << " on\n";
   return report.stop == Stop::finished ? kDone : kNoSuccess;

@@ -106,9 +106,7 @@ std::vector<std::string> write_state(const StaticsArguments& options, scene::Sce
   for (std::size_t a = 0; a < now.supports.size() && a < found.support.size(); ++a)
     now.supports[a] = {found.support[a], found.torque[a]};
   recorder.take(now, run.mesh());
-  if (const auto& spoilt = recorder.spoilt(); spoilt && spoilt->what.spoilt > kSpoilt)
-    std::cerr << "tendril: note: the equilibrium spoils " << describe(spoilt->what)
-              << "; 'tendril bind' tells a tear from what is bent too sharply\n";
+  recorder.warn_of_spoilt("the equilibrium");
   recorder.write_trajectory();
   if (!options.no_pictures) {
     const Phases::Timer timer(phases, Phases::draw);

@@ -24,10 +24,6 @@ OrderedJson to_json(const std::vector<std::uint32_t>& ids);
 /// What a pose spoils, with the hundred largest zones and some faces of each.
 OrderedJson to_json(const bind::Distortion& distortion);
 
-/// A share of the mesh's area that is worth a word where a whole run is concerned: what a verdict of `right`
-/// allows.
-constexpr double kSpoilt = 1e-3;
-
 /// The same for a message: "2 % of the mesh: 3 triangle(s) folded, ...". Of at least one zone.
 std::string describe(const bind::Distortion& distortion);
 

@@ -1,6 +1,7 @@
 #include "write/recorder.h"
 
 #include "draw/solid.h"
+#include "write/json_output.h"
 
 #include <tendril/base/file.h>
 #include <tendril/bind/export.h>
@@ -8,9 +9,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 
 namespace tendril::runner {
 namespace {
+
+constexpr double kSpoilt = 1e-3;  // of the mesh's area
 
 std::string frame_name(std::size_t number) {
   char name[32];
@@ -60,6 +64,12 @@ void Recorder::judge(double time, const scene::BoundMesh& mesh) {
   const Phases::Timer timer(phases_, Phases::update);
   bind::Distortion now = mesh.distortion();
   if (!spoilt_ || now.spoilt > spoilt_->what.spoilt) spoilt_ = {time, std::move(now)};
+}
+
+void Recorder::warn_of_spoilt(const std::string& what) const {
+  if (!spoilt_ || !(spoilt_->what.spoilt > kSpoilt)) return;
+  std::cerr << "tendril: note: at time " << spoilt_->time << ' ' << what << " spoils "
+            << describe(spoilt_->what) << "; 'tendril bind' tells a tear from what is bent too sharply\n";
 }
 
 std::string Recorder::left_over() const {

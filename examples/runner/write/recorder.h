@@ -36,6 +36,9 @@ class Recorder {
   const scene::Snapshot& last() const { return last_; }
   /// What spoils the mesh most, of the contact sheet's moments; none without a mesh.
   const std::optional<scene::SpoiltMoment>& spoilt() const { return spoilt_; }
+  /// Says so on standard error where it is more than a verdict of `right` allows.
+  /// \param what  that does it: "the motion"
+  void warn_of_spoilt(const std::string& what) const;
   Camera camera() const { return fit_.camera(); }
 
   /// And the tables of solids, contacts and supports, where the scene has any or asks for them.
