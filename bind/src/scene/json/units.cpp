@@ -9,16 +9,39 @@ namespace {
 using Words = std::map<std::string, double>;
 
 const Words& lengths() {
-  static const Words words{
-      {"m", 1.0},           {"metre", 1.0},       {"meter", 1.0},        {"metres", 1.0},
-      {"meters", 1.0},      {"km", 1e3},          {"kilometre", 1e3},    {"kilometer", 1e3},
-      {"kilometres", 1e3},  {"kilometers", 1e3},  {"dm", 1e-1},          {"cm", 1e-2},
-      {"centimetre", 1e-2}, {"centimeter", 1e-2}, {"centimetres", 1e-2}, {"mm", 1e-3},
-      {"millimetre", 1e-3}, {"millimeter", 1e-3}, {"millimetres", 1e-3}, {"millimeters", 1e-3},
-      {"um", 1e-6},         {"\u00b5m", 1e-6},    {"\u03bcm", 1e-6},     {"micrometre", 1e-6},
-      {"micrometer", 1e-6}, {"nm", 1e-9},         {"in", 0.0254},        {"inch", 0.0254},
-      {"inches", 0.0254},   {"ft", 0.3048},       {"foot", 0.3048},      {"feet", 0.3048},
-      {"centimeters", 1e-2}};
+  static const Words words{{"m", 1.0},
+                           {"metre", 1.0},
+                           {"meter", 1.0},
+                           {"metres", 1.0},
+                           {"meters", 1.0},
+                           {"km", 1e3},
+                           {"kilometre", 1e3},
+                           {"kilometer", 1e3},
+                           {"kilometres", 1e3},
+                           {"kilometers", 1e3},
+                           {"dm", 1e-1},
+                           {"cm", 1e-2},
+                           {"centimetre", 1e-2},
+                           {"centimeter", 1e-2},
+                           {"centimetres", 1e-2},
+                           {"centimeters", 1e-2},
+                           {"mm", 1e-3},
+                           {"millimetre", 1e-3},
+                           {"millimeter", 1e-3},
+                           {"millimetres", 1e-3},
+                           {"millimeters", 1e-3},
+                           {"um", 1e-6},
+                           {"\u00b5m", 1e-6},
+                           {"\u03bcm", 1e-6},
+                           {"micrometre", 1e-6},
+                           {"micrometer", 1e-6},
+                           {"nm", 1e-9},
+                           {"in", 0.0254},
+                           {"inch", 0.0254},
+                           {"inches", 0.0254},
+                           {"ft", 0.3048},
+                           {"foot", 0.3048},
+                           {"feet", 0.3048}};
   return words;
 }
 const Words& masses() {
