@@ -256,7 +256,7 @@ TEST(ContinuousBinding, SharesAJunctionOfTwoCurvePairs) {
     EXPECT_EQ(binding.pair_of(0), 0u);
     EXPECT_EQ(binding.pair_of(mesh.points.size() - 1), 1u);
     const double step = longest_step(out);
-    if (before > 0.0) EXPECT_NEAR(step / before, 0.5, 0.05);
+    if (before > 0.0) EXPECT_NEAR(step / before, 0.5, 0.1);  // that of a jump would stay
     before = step;
     MeshFollower(binding, 0, out).follow(0.0, posed);
     EXPECT_EQ(longest_step(out), step);

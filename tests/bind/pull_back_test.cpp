@@ -4,9 +4,9 @@
 #include <tendril/bind/judge.h>
 
 #include "bind/unit_missing.h"
-#include "place/moments.h"
 #include "support/pairs.h"
 #include "support/random.h"
+#include "work/moments.h"
 
 namespace tendril::bind {
 namespace {

@@ -105,7 +105,7 @@ TEST(SurfaceContact, IsTheSameWithALedgerAndWithout) {
   const std::vector<Rod> rods = stalks();
   const SurfaceContact contact = contact_on(rods, solids(), law_of(Law::Kind::barrier, kRange, 0.0, 0.0));
   int touched = 0, untouched = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 90; ++round) {
     Shown s = shown_of(rods, random, 0.005, 0.5);
     for (Vec3& p : s.p)
       p.z() += round % 2 == 0 ? random.uniform(-0.01, 0.05) : random.uniform(0.0, 0.03) + 4.0;

@@ -42,7 +42,7 @@ struct Options {
   unsigned long seed = 1;
   int count = 10;
   int cells = 128;
-  double band = 0.25;
+  double band = 0.5;
   double zones = 1e-3;
   double joints = 2.0;
   bool splits = false;

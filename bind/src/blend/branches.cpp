@@ -48,14 +48,14 @@ class Gate {
       for (Candidate& c : list) c.open = false;
     for (std::uint32_t i = 0; i < lists_.size(); ++i) enter(i, 0);
     while (!waiting_.empty()) {
-      const Node node = waiting_.back();
+      const Reached node = waiting_.back();
       waiting_.pop_back();
       for (const std::uint32_t next : grid_.neighbours().of(node.point)) spread(node, next);
     }
   }
 
  private:
-  struct Node {
+  struct Reached {
     std::uint32_t point;
     std::size_t which;
   };
@@ -65,7 +65,7 @@ class Gate {
     lists_[point][which].open = true;
     waiting_.push_back({point, which});
   }
-  void spread(const Node& node, std::uint32_t next) {
+  void spread(const Reached& node, std::uint32_t next) {
     for (std::size_t k = 1; k < lists_[next].size(); ++k)
       if (!lists_[next][k].open &&
           same_branch(projectors_, 0.5 * (grid_.nodes()[node.point] + grid_.nodes()[next]),
@@ -76,7 +76,7 @@ class Gate {
   std::span<const CurveProjector> projectors_;
   const BodyGrid& grid_;
   CandidateLists& lists_;
-  std::vector<Node> waiting_;
+  std::vector<Reached> waiting_;
 };
 
 }  // namespace
@@ -275,6 +275,7 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
   const std::span<const std::uint32_t> face_of =
       face.empty() ? std::span<const std::uint32_t>(data_->faces) : face;
   Branches out;
+  out.nodes = data_->axis.nodes();
   out.loose = data_->loose.list();
   out.nearest.resize(points.size());
   out.influences.resize(points.size());

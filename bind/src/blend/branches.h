@@ -19,13 +19,20 @@ struct Candidate {
   double distance() const { return factor * at.distance; }
 };
 
-/// A node of an axis that a point is bound to.
-struct Influence {
+/// A place of an axis that points may be bound to besides their nearest projection.
+struct Node {
   std::uint32_t pair;
-  double t, weight;
+  double t;
+};
+
+/// A node that a point is bound to.
+struct Influence {
+  std::uint32_t node;  ///< index
+  double weight;
 };
 
 struct Branches {
+  std::vector<Node> nodes;                         ///< of all curves, ascending
   std::vector<Candidate> nearest;                  ///< per point, of those not gated
   std::vector<std::vector<Influence>> influences;  ///< per point, none where the nearest alone counts
   std::vector<std::uint32_t> ambiguous, gated;

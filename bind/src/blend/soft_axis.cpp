@@ -68,9 +68,10 @@ std::vector<Influence> normalized(std::vector<Influence> all, double sum) {
 }  // namespace
 
 SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : band_(band) {
+  std::uint32_t first_node = 0;
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
-    Curve one{&curve, largest_speed(curve), {}, {}, {}, {}, {}, {}, 0.0, {}};
+    Curve one{&curve, largest_speed(curve), {}, first_node, {}, {}, {}, {}, {}, 0.0, {}};
     const auto sample = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
@@ -88,6 +89,7 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
         sample(k == kSamplesPerSpan ? piece.end
                                     : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
     one.blocks = blocks_of(one);
+    first_node += static_cast<std::uint32_t>(one.nodes.size());
     curves_.push_back(std::move(one));
   }
 }
@@ -191,6 +193,13 @@ void SoftAxis::distribute(const Curve& curve, std::span<const Sample> along, std
   }
 }
 
+std::vector<Node> SoftAxis::nodes() const {
+  std::vector<Node> out;
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
+    for (const double t : curves_[pair].nodes) out.push_back({pair, t});
+  return out;
+}
+
 std::vector<Influence> SoftAxis::influences(const Site& site) const {
   std::vector<Influence> out;
   std::vector<double> weight;
@@ -199,7 +208,8 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
     distribute(curves_[pair], samples(site, pair), weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
-      if (weight[k] > 0.0) out.push_back({pair, curves_[pair].nodes[k], weight[k]});
+      if (weight[k] > 0.0)
+        out.push_back({curves_[pair].first_node + static_cast<std::uint32_t>(k), weight[k]});
     }
   }
   return sum > 0.0 ? normalized(std::move(out), sum) : out;

@@ -50,6 +50,9 @@ class SoftAxis {
  public:
   SoftAxis(std::span<const CurveProjector> projectors, double band);
 
+  /// Of all curves, ascending.
+  std::vector<Node> nodes() const;
+
   /// The nodes with a weight, which sum to 1. Projections that are not open are left out with their part of
   /// the curve.
   std::vector<Influence> influences(const Site& site) const;
@@ -80,6 +83,7 @@ class SoftAxis {
     const BSpline* curve;
     double speed;               ///< bound on |c'|
     std::vector<double> nodes;  ///< parameters, ascending, ends included
+    std::uint32_t first_node;   ///< index of the first of them among those of all curves
     /// Samples for the cut distance: their parameters, and the length of the chain of samples up to each.
     std::vector<double> parameters, lengths;
     std::vector<Vec3> points, tangents, curvatures;

@@ -41,6 +41,7 @@ class Groups : public PointGroups {
     layout_->require_same_knots(posed);
     posed_.assign(posed.begin(), posed.end());
     pieces_ = bind::pose<double>(layout_->spans, posed_);
+    maps_ = Evaluator<double>(*layout_, layout_->numbers, posed_).maps(pieces_);
   }
 
   void place(std::size_t group, MutablePoints out) const override {
@@ -52,16 +53,18 @@ class Groups : public PointGroups {
       evaluator.evaluate(pieces_, order_, records_, at, at + count, {x.data(), y.data(), z.data()});
       for (std::size_t i = 0; i < count; ++i) out[place_[at + i]] = Vec3(x[i], y[i], z[i]);
     }
+    const auto map_of = [this](std::uint32_t node) -> const AffineMap<double>& { return maps_[node]; };
     for (std::size_t b = blend_begin_[group]; b < blend_begin_[group + 1]; ++b) {
-      const Triple<double> p = evaluator.one(
-          blends_[b].point, [&](std::uint32_t span) -> const Piece<double>& { return pieces_[span]; });
-      out[blends_[b].place] = Vec3(p.x, p.y, p.z);
+      Vec3& to = out[blends_[b].place];
+      const Triple<double> p = evaluator.blended(*blends_[b].blend, {to.x(), to.y(), to.z()}, map_of);
+      to = Vec3(p.x, p.y, p.z);
     }
   }
 
  private:
   struct Blended {
-    std::uint32_t point, place;
+    const BindingLayout::Blend* blend;
+    std::uint32_t place;  ///< of its point, among those of the group
   };
 
   void arrange(std::span<const std::uint32_t> points, std::uint32_t begin, std::uint32_t end) {
@@ -83,7 +86,7 @@ class Groups : public PointGroups {
       order_.entry[slot] = point;
       place_[slot] = sorted[i];
       copy_record(layout.numbers.nearest, layout.slot[point], slot);
-      if (layout.blend_of(point)) blends_.push_back({point, sorted[i]});
+      if (const BindingLayout::Blend* blend = layout.blend_of(point)) blends_.push_back({blend, sorted[i]});
     }
     blend_begin_.push_back(blends_.size());
   }
@@ -104,6 +107,7 @@ class Groups : public PointGroups {
   std::vector<std::size_t> blend_begin_;
   std::vector<CurvePair> posed_;
   std::vector<Piece<double>> pieces_;
+  std::vector<AffineMap<double>> maps_;
 };
 
 }  // namespace
@@ -115,8 +119,7 @@ void BindingPoints::shares(std::size_t point, std::vector<BoundShare>& out) cons
   out.clear();
   out.push_back({layout.pair_of(point), blend ? layout.kept[point] : 1.0, layout.entries[point]});
   for (std::size_t k = blend ? blend->begin : 0; k < (blend ? blend->end : 0); ++k) {
-    const std::size_t entry = layout.size + k;
-    out.push_back({layout.pair_of(entry), layout.share[k], layout.entries[entry]});
+    out.push_back({layout.nodes[layout.node[k]].pair, layout.numbers.share[k], layout.record(*blend, k)});
   }
 }
 

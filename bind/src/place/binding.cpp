@@ -47,49 +47,51 @@ void project(const CurvePair& rest, Points points, int threads, BindingLayout& l
   });
 }
 
-/// Room for the shares of every point.
-void lay_out(const Branches& branches, bool with_pairs, BindingLayout& layout) {
-  for (std::uint32_t i = 0; i < layout.size; ++i) {
-    const std::size_t others = branches.influences[i].size();
-    if (others == 0) continue;
-    const std::size_t begin = layout.owner.size();
-    if (layout.size + begin + others > 0x7fffffff)
-      throw InvalidInput("points", "too many influences", "fewer than 2^31");
-    layout.owner.resize(begin + others, i);
-    layout.blends.push_back(
-        {i, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + others)});
+/// The shares of every point in nodes, and the nodes that have some.
+void lay_out(std::span<const CurvePair> rest, Points points, const Branches& branches,
+             BindingLayout& layout) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> kept(branches.nodes.size(), kNone);
+  for (const auto& influences : branches.influences)
+    for (const Influence& one : influences) kept[one.node] = 0;
+  layout.rest_base = BindingLayout::base_of(rest);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k] == kNone) continue;
+    kept[k] = static_cast<std::uint32_t>(layout.nodes.size());
+    const Node& at = branches.nodes[k];
+    layout.nodes.push_back(layout.make_node(at.pair, at.t, rest[at.pair]));
   }
-  layout.share.resize(layout.owner.size());
-  layout.entries.resize(layout.size + layout.owner.size());
-  if (with_pairs) layout.pair.resize(layout.entries.size());
+  for (std::uint32_t i = 0; i < layout.size; ++i) {
+    const std::vector<Influence>& influences = branches.influences[i];
+    const std::size_t begin = layout.node.size(), end = begin + influences.size();
+    if (begin == end) continue;
+    if (layout.size + end > 0x7fffffff)
+      throw InvalidInput("points", "too many influences", "fewer than 2^31");
+    layout.blends.push_back({i, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
+    const Vec3 place = points[i] - layout.rest_base;
+    layout.numbers.place.push_back({place.x(), place.y(), place.z()});
+    for (const Influence& one : influences) {
+      layout.node.push_back(kept[one.node]);
+      layout.numbers.share.push_back(one.weight);
+    }
+  }
 }
 
 void share(std::span<const CurvePair> rest, Points points, Branches branches, const BindOptions& options,
            BindingLayout& layout, Found& found, BindReport& report) {
   if (options.mode == BindMode::nearest)
     for (auto& influences : branches.influences) influences.clear();
-  lay_out(branches, rest.size() > 1, layout);
-  const auto enter = [&](std::size_t entry, std::uint32_t pair, double t, std::size_t point) {
-    if (!layout.pair.empty()) layout.pair[entry] = pair;
-    layout.entries[entry] = to_axial(rest[pair], t, points[point]);
-  };
+  layout.entries.resize(points.size());
+  if (rest.size() > 1) layout.pair.resize(points.size());
   in_parts(layout.size, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Candidate& nearest = branches.nearest[i];
       found.set(i, nearest.at);
-      enter(i, nearest.pair, nearest.at.t, i);
+      if (!layout.pair.empty()) layout.pair[i] = nearest.pair;
+      layout.entries[i] = to_axial(rest[nearest.pair], nearest.at.t, points[i]);
     }
   });
-  in_parts(layout.blends.size(), options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const auto& blend = layout.blends[b];
-      for (std::size_t k = blend.begin; k < blend.end; ++k) {
-        const Influence& one = branches.influences[blend.point][k - blend.begin];
-        enter(layout.size + k, one.pair, one.t, blend.point);
-        layout.share[k] = one.weight;
-      }
-    }
-  });
+  lay_out(rest, points, branches, layout);
   report.ambiguous = std::move(branches.ambiguous);
   report.gated = std::move(branches.gated);
   report.loose = std::move(branches.loose);
@@ -121,11 +123,12 @@ Binding::Binding(const CurvePair& rest, Points points, int threads) {
   Found found(points.size());
   layout->size = points.size();
   layout->knots.push_back(rest.knots());
+  layout->make_spans();
   project(rest, points, threads, *layout, found);
   layout->arrange(kInPlane * bounding_diagonal(points));
   layout_ = std::move(layout);
   inspect({&rest, 1}, points, threads, *this, found, report_);
-  report_.shares = layout_->entries.size();
+  report_.shares = points.size();
 }
 
 SurfaceBinder::SurfaceBinder(std::span<const CurvePair> rest, const PolygonMesh& body,
@@ -148,6 +151,7 @@ Binding SurfaceBinder::bind(Points points, std::span<const std::uint32_t> face) 
   Found found(points.size());
   layout->size = points.size();
   for (const CurvePair& pair : rest_) layout->knots.push_back(pair.knots());
+  layout->make_spans();
   if (branches_)
     share(rest_, points, branches_->find(points, face, options_.threads), options_, *layout, found,
           out.report_);
@@ -156,7 +160,7 @@ Binding SurfaceBinder::bind(Points points, std::span<const std::uint32_t> face) 
   layout->arrange(negligible_);
   out.layout_ = std::move(layout);
   inspect(rest_, points, options_.threads, out, found, out.report_);
-  out.report_.shares = out.layout_->entries.size();
+  out.report_.shares = points.size() + out.layout_->node.size();
   return out;
 }
 
@@ -189,9 +193,9 @@ std::vector<Share> Binding::shares(std::size_t point) const {
   const BindingLayout::Blend* blend = layout_->blend_of(point);
   if (!blend) return result;
   for (std::size_t k = blend->begin; k < blend->end; ++k) {
-    const std::size_t entry = layout_->size + k;
-    result.push_back({layout_->pair_of(entry), layout_->share[k], layout_->entries[entry]});
-    result.front().weight -= layout_->share[k];
+    const double weight = layout_->numbers.share[k];
+    result.push_back({layout_->nodes[layout_->node[k]].pair, weight, layout_->record(*blend, k)});
+    result.front().weight -= weight;
   }
   return result;
 }

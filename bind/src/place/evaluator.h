@@ -13,7 +13,7 @@ constexpr std::size_t kPointsWorthAThread = 32768;
 ///
 /// Two passes: the loops of sweep.h write the points of a span's nearest projections in binding order, and
 /// flag the ones whose frame is near degenerate, which evaluate_by_rule() then overwrites; blend() adds the
-/// other shares of the points that have several.
+/// shares that points have in nodes, whose maps are found once.
 template <class T>
 class Evaluator {
  public:
@@ -21,6 +21,8 @@ class Evaluator {
   Evaluator(const BindingLayout& layout, const Numbers& numbers, std::span<const CurvePair> posed)
       : layout_(layout), numbers_(numbers), posed_(posed) {
     layout.require_same_knots(posed);
+    base_ = BindingLayout::base_of(posed);
+    near_ = {static_cast<T>(base_.x()), static_cast<T>(base_.y()), static_cast<T>(base_.z())};
   }
 
   /// All points, in binding order.
@@ -38,28 +40,45 @@ class Evaluator {
   /// Slots [begin, end) of an order of nearest projections, the first of them to out[0]; blends are left out.
   void evaluate(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
                 std::size_t end, const ColumnsView<T>& out) const;
-  /// \param piece_of  of a span's index
-  template <class PieceOf>
-  Triple<T> one(std::size_t point, const PieceOf& piece_of) const;
+  /// The point of a blend.
+  /// \param nearest  where its nearest projection takes it
+  /// \param map_of   of a node's index
+  template <class MapOf>
+  TENDRIL_INLINE Triple<T> blended(const BindingLayout::Blend& blend, const Triple<T>& nearest,
+                                   const MapOf& map_of) const {
+    return near_ + mix(layout_.shares_of(numbers_, blend), map_of, layout_.place_of(numbers_, blend),
+                       nearest - near_);
+  }
+  /// Of all nodes.
+  std::vector<AffineMap<T>> maps(const Pieces& pieces) const;
 
  private:
+  AffineMap<T> map(std::size_t node, const Piece<double>& piece) const {
+    const AxisNode& at = layout_.nodes[node];
+    return map_of<T>(at, piece, posed_[at.pair], base_);
+  }
   /// Slots of one run; true when one was left to the second pass.
   static bool evaluate_run(const Piece<T>& piece, bool off, const RecordsView<T>& records, std::size_t count,
                            const ColumnsView<T>& out);
   void mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
                        const ColumnsView<T>& out) const;
   Triple<T> evaluate_by_rule(std::uint32_t entry) const;
+  /// \param piece_of  of a span's index
   template <class PieceOf>
   Triple<T> evaluate_slot(const PieceOf& piece_of, const Order& order, const Records<T>& records,
                           std::size_t slot) const;
+  template <class PieceOf, class MapOf>
+  Triple<T> one(std::size_t point, const PieceOf& piece_of, const MapOf& map_of) const;
   template <class Access>
   void blend(const Pieces& pieces, const Access& access, int threads) const;
-  template <class Other>
-  Triple<T> mix(const BindingLayout::Blend& blend, const Triple<T>& base, const Other& other) const;
+  template <class Access>
+  struct BlendSome;
 
   const BindingLayout& layout_;
   const Numbers& numbers_;
   std::span<const CurvePair> posed_;
+  Vec3 base_;       ///< of the pose
+  Triple<T> near_;  ///< the same in these numbers
 };
 
 template <class T>
@@ -123,35 +142,22 @@ Triple<T> Evaluator<T>::evaluate_slot(const PieceOf& piece_of, const Order& orde
   return evaluated.fault ? evaluate_by_rule(order.entry[slot]) : evaluated.point;
 }
 
-/// The nearest projection's point plus the weighted differences of the others to it: at rest these vanish up
-/// to rounding of the points, whatever the weights sum to.
 template <class T>
-template <class Other>
-Triple<T> Evaluator<T>::mix(const BindingLayout::Blend& blend, const Triple<T>& base,
-                            const Other& other) const {
-  Triple<T> sum = base;
-  for (std::size_t k = blend.begin; k < blend.end; ++k)
-    sum = sum + static_cast<T>(layout_.share[k]) * (other(layout_.other_slot[k]) - base);
-  return sum;
-}
-
-template <class T>
-template <class PieceOf>
-Triple<T> Evaluator<T>::one(std::size_t point, const PieceOf& piece_of) const {
+template <class PieceOf, class MapOf>
+Triple<T> Evaluator<T>::one(std::size_t point, const PieceOf& piece_of, const MapOf& map_of) const {
   layout_.require_point(point);
-  const Triple<T> base = evaluate_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
+  const Triple<T> nearest = evaluate_slot(piece_of, layout_.nearest, numbers_.nearest, layout_.slot[point]);
   const BindingLayout::Blend* blend = layout_.blend_of(point);
-  if (!blend) return base;
-  return mix(*blend, base, [&](std::size_t slot) {
-    return evaluate_slot(piece_of, layout_.others, numbers_.others, slot);
-  });
+  return blend ? blended(*blend, nearest, map_of) : nearest;
 }
 
 template <class T>
 Triple<T> Evaluator<T>::one(std::size_t point) const {
-  return one(point, [&](std::uint32_t span) {
-    return pose<T>(layout_.spans[span], posed_[layout_.spans[span].pair]);
-  });
+  auto pieces = on_demand<double>(layout_.spans, posed_);
+  return one(
+      point,
+      [&](std::uint32_t span) { return pose<T>(layout_.spans[span], posed_[layout_.spans[span].pair]); },
+      [&](std::uint32_t node) { return map(node, pieces[layout_.nodes[node].span]); });
 }
 
 template <class T>
@@ -159,31 +165,54 @@ template <class Row>
 void Evaluator<T>::some(std::span<const std::uint32_t> points, Row* out) const {
   auto pieces = on_demand<T>(layout_.spans, posed_);
   const auto piece_of = [&](std::uint32_t span) -> const Piece<T>& { return pieces[span]; };
+  auto exact = on_demand<double>(layout_.spans, posed_);
+  const auto make = [&](std::uint32_t node) { return map(node, exact[layout_.nodes[node].span]); };
+  OnDemand<AffineMap<T>, decltype(make)> made(layout_.nodes.size(), make);
+  const auto map_of = [&](std::uint32_t node) -> const AffineMap<T>& { return made[node]; };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Triple<T> p = one(points[i], piece_of);
+    const Triple<T> p = one(points[i], piece_of, map_of);
     out[i] = Row(p.x, p.y, p.z);
   }
 }
 
-/// Adds the other shares of the points that have several.
+template <class T>
+std::vector<AffineMap<T>> Evaluator<T>::maps(const Pieces& pieces) const {
+  std::vector<AffineMap<T>> out;
+  out.reserve(layout_.nodes.size());
+  auto exact = on_demand<double>(layout_.spans, posed_);
+  for (std::size_t k = 0; k < layout_.nodes.size(); ++k) {
+    const std::uint32_t span = layout_.nodes[k].span;
+    if constexpr (std::is_same_v<T, double>)
+      out.push_back(map(k, pieces[span]));
+    else
+      out.push_back(map(k, exact[span]));
+  }
+  return out;
+}
+
+/// Blends [begin, end), on one vector unit.
+template <class T>
+template <class Access>
+struct Evaluator<T>::BlendSome {
+  static TENDRIL_INLINE void run(const Evaluator& of, const AffineMap<T>* maps, const Access& access,
+                                 std::size_t begin, std::size_t end) {
+    const auto map_of = [maps](std::uint32_t node) -> const AffineMap<T>& { return maps[node]; };
+    for (std::size_t b = begin; b < end; ++b) {
+      const BindingLayout::Blend& blend = of.layout_.blends[b];
+      access.write(blend.point, of.blended(blend, access.read(blend.point), map_of));
+    }
+  }
+};
+
+/// Adds their shares in nodes to the points that have some.
 /// \param access  reads and writes a point by its index in the mesh
 template <class T>
 template <class Access>
 void Evaluator<T>::blend(const Pieces& pieces, const Access& access, int threads) const {
   if (layout_.blends.empty()) return;
-  const std::size_t count = layout_.others.entry.size();
-  std::vector<T> x(count), y(count), z(count);
-  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
-    evaluate(pieces, layout_.others, numbers_.others, begin, end,
-             {x.data() + begin, y.data() + begin, z.data() + begin});
-  });
+  const std::vector<AffineMap<T>> all = maps(pieces);
   in_parts(layout_.blends.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const auto& blend = layout_.blends[b];
-      access.write(blend.point, mix(blend, access.read(blend.point), [&](std::size_t slot) {
-                     return Triple<T>{x[slot], y[slot], z[slot]};
-                   }));
-    }
+    OnUnits<BlendSome<Access>>::run(widest_unit(), *this, all.data(), access, begin, end);
   });
 }
 

@@ -61,7 +61,7 @@ class OnDemand {
   /// \param make  of a span's index
   OnDemand(std::size_t spans, Make make) : make_(std::move(make)), number_(spans, 0) { made_.reserve(spans); }
 
-  const Made& operator[](std::uint32_t span) {
+  Made& operator[](std::uint32_t span) {
     if (number_[span] == 0) {
       made_.push_back(make_(span));
       number_[span] = static_cast<std::uint32_t>(made_.size());

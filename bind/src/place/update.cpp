@@ -69,10 +69,15 @@ void Binding::at(std::span<const CurvePair> posed, std::span<const std::uint32_t
 
 struct Bindingf::Numbers : BindingLayout::Numbers<float> {};
 
-Bindingf::Bindingf(const Binding& binding)
-    : binding_(binding),
-      numbers_(std::make_shared<const Numbers>(Numbers{{Records<float>(binding.layout_->numbers.nearest),
-                                                        Records<float>(binding.layout_->numbers.others)}})) {}
+Bindingf::Bindingf(const Binding& binding) : binding_(binding) {
+  const BindingLayout::Numbers<double>& exact = binding.layout_->numbers;
+  auto numbers = std::make_shared<Numbers>();
+  numbers->nearest = Records<float>(exact.nearest);
+  numbers->share.assign(exact.share.begin(), exact.share.end());
+  for (const Triple<double>& p : exact.place)
+    numbers->place.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  numbers_ = std::move(numbers);
+}
 
 void Bindingf::update(std::span<const CurvePair> posed, std::span<Eigen::Vector3f> out, int threads) const {
   require("out", out.size(), size());

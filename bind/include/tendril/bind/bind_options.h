@@ -28,7 +28,7 @@ struct BindOptions {
   /// the mesh by at most half the length of the path. r is d but near where the mesh meets its own axis,
   /// where d vanishes and r does not. Above 0, at most 1. A wider zone stretches the mesh less and blends
   /// more of it.
-  double band = 0.25;
+  double band = 0.5;
   /// 1 to 256; the same bits for any number.
   int threads = 1;
 };

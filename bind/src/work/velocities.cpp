@@ -4,7 +4,6 @@
 #include <string>
 
 #include "place/layout.h"
-#include "place/sweep.h"
 
 namespace tendril::bind {
 namespace {
@@ -28,24 +27,23 @@ Triple<double> turn_of(const Triple<double>& unit, double inverse, const Triple<
   return inverse * (rate - dot(unit, rate) * unit);
 }
 
-/// With z = c', x = d x z, X = x / |x|, Z = z / |z| the point is c + u X + v Z x X + w Z.
+/// With z = c', x = d x z, X = x / |x|, Z = z / |z| the frame is (X, Z x X, Z). One that is near degenerate
+/// does not turn.
 template <int P>
-Triple<double> velocity(const MovingPiece& piece, const RecordsView<double>& record) {
-  const double s = *record.s, u = *record.u, v = *record.v, w = *record.w;
+FrameColumns rates(const MovingPiece& piece, double s) {
   const Moving<double> at = moving<double, P>(piece.at, s), by = moving<double, P>(piece.rate, s);
-  if (!(at.sound > 0.5)) return by.origin;
+  if (!(at.sound > 0.5)) return {by.origin, {}, {}, {}};
   const Lengths<double> inverse = inverse_lengths(at);
   const Triple<double> x = inverse.x * at.x, z = inverse.z * at.z;
   const Triple<double> dx = turn_of(x, inverse.x, cross(by.offset, at.z) + cross(at.offset, by.z));
   const Triple<double> dz = turn_of(z, inverse.z, by.z);
-  return by.origin + u * dx + v * (cross(dz, x) + cross(z, dx)) + w * dz;
+  FrameColumns out{by.origin, dx, cross(dz, x) + cross(z, dx), dz};
+  if (piece.at.turned) turn_columns(turn_at(piece.at, s), out);
+  return out;
 }
 
-Triple<double> velocity_of(const MovingPiece& piece, const RecordsView<double>& record) {
-  Triple<double> result{};
-  for_degree(piece.at.degree,
-             [&](auto degree) { result = velocity<decltype(degree)::value>(piece, record); });
-  return result;
+FrameColumns rates_of(const MovingPiece& piece, double s) {
+  return for_degree(piece.at.degree, [&](auto degree) { return rates<decltype(degree)::value>(piece, s); });
 }
 
 }  // namespace
@@ -59,21 +57,21 @@ void Binding::velocities(std::span<const CurvePair> posed, std::span<const Curve
     throw InvalidInput("out", std::to_string(out.size()) + " entries", std::to_string(points.size()));
   const auto make = [&](std::uint32_t span) { return moving_piece(layout.spans[span], posed, rates); };
   OnDemand<MovingPiece, decltype(make)> pieces(layout.spans.size(), make);
-  const auto one = [&](const Order& order, const Records<double>& records, std::size_t slot) {
-    const MovingPiece& piece = pieces[order.run_of(slot).span];
-    double u, v;
-    const RecordsView<double> given = records.from(slot);
-    return velocity_of(piece, piece.at.turned ? turn_records(piece.at, given, 1, &u, &v) : given);
+  const auto make_map = [&](std::uint32_t node) {
+    const AxisNode& at = layout.nodes[node];
+    return map_between<double>(at, rates_of(pieces[at.span], at.s));
   };
+  OnDemand<AffineMap<double>, decltype(make_map)> maps(layout.nodes.size(), make_map);
+  const auto map_of = [&](std::uint32_t node) -> const AffineMap<double>& { return maps[node]; };
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);
-    const Triple<double> base = one(layout.nearest, layout.numbers.nearest, layout.slot[points[i]]);
-    Triple<double> sum = base;
+    const std::size_t slot = layout.slot[points[i]];
+    const Records<double>& record = layout.numbers.nearest;
+    const FrameColumns by = rates_of(pieces[layout.nearest.run_of(slot).span], record.s[slot]);
+    Triple<double> v = by.origin + record.u[slot] * by.x + record.v[slot] * by.y + record.w[slot] * by.z;
     if (const BindingLayout::Blend* blend = layout.blend_of(points[i]))
-      for (std::size_t k = blend->begin; k < blend->end; ++k)
-        sum =
-            sum + layout.share[k] * (one(layout.others, layout.numbers.others, layout.other_slot[k]) - base);
-    out[i] = Vec3(sum.x, sum.y, sum.z);
+      v = mix(layout.shares_of(layout.numbers, *blend), map_of, layout.place_of(layout.numbers, *blend), v);
+    out[i] = Vec3(v.x, v.y, v.z);
   }
 }
 

@@ -13,6 +13,11 @@ struct Pulled {
   Triple<double> z, d;
 };
 
+/// Of forces on points of a frame: the sums of u f, v f and w f.
+struct FrameForces {
+  Triple<double> u, v, w;
+};
+
 /// The point is c + u X + v Y + w Z with z = c', x = d x z, X = x / |x|, Z = z / |z|, Y = Z x X. Under a
 /// change of z and d the force f does the work
 ///
@@ -22,15 +27,12 @@ struct Pulled {
 /// by the cyclic symmetry of the triple product. Of a unit vector, dX = (dx - X (X . dx)) / |x|, so with h_x
 /// the part of g_x across X over |x|, and h_z likewise, the work is h_x . dx + h_z . dz. At last dx = dd x z
 /// + d x dz: z x h_x is the force on d, and h_z + h_x x d that on z.
-template <int P>
-TENDRIL_INLINE Pulled pull(const Piece<double>& piece, double s, double u, double v, double w,
-                           const Triple<double>& f) {
-  const Moving<double> at = moving<double, P>(piece, s);
+TENDRIL_INLINE Pulled pull(const Moving<double>& at, const FrameForces& f) {
   const Lengths<double> inverse = inverse_lengths(at);
   const Triple<double> x = inverse.x * at.x;
   const Triple<double> z = inverse.z * at.z;
-  const Triple<double> gx = u * f + v * cross(f, z);
-  const Triple<double> gz = w * f + v * cross(x, f);
+  const Triple<double> gx = f.u + cross(f.v, z);
+  const Triple<double> gz = f.w + cross(x, f.v);
   const Triple<double> hx = inverse.x * (gx - dot(x, gx) * x);
   const Triple<double> hz = inverse.z * (gz - dot(z, gz) * z);
   const Triple<double> on_z = hz + cross(hx, at.offset);
@@ -52,7 +54,8 @@ TENDRIL_INLINE void pull_all(const Piece<double>& piece, const RecordsView<doubl
   const Piece<double> local = piece;
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) {
-    const Pulled at = pull<P>(local, to.s[i], u[i], v[i], w[i], {to.f[0][i], to.f[1][i], to.f[2][i]});
+    const Triple<double> f{to.f[0][i], to.f[1][i], to.f[2][i]};
+    const Pulled at = pull(moving<double, P>(local, to.s[i]), {u[i] * f, v[i] * f, w[i] * f});
     to.z[0][i] = at.z.x;
     to.z[1][i] = at.z.y;
     to.z[2][i] = at.z.z;
@@ -130,7 +133,42 @@ struct AddMoments {
   }
 };
 
+/// Coefficients of one s: see raise().
+void add_at(double s, int degree, const Triple<double>& f, const Pulled& on, Moments& to) {
+  const double force[3]{f.x, f.y, f.z}, z[3]{on.z.x, on.z.y, on.z.z}, d[3]{on.d.x, on.d.y, on.d.z};
+  double power = 1.0, before = 0.0;  // s^j, j s^(j - 1)
+  for (std::size_t j = 0; j <= static_cast<std::size_t>(degree); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      to.c[j][k] += power * force[k] + before * z[k];
+      to.d[j][k] += power * d[k];
+    }
+    before = before * s + power;
+    power *= s;
+  }
+}
+
 }  // namespace
+
+/// The map is A = R R0^T, b = c - A o with the frames R posed and R0 at rest: the sums over f of u f, v f
+/// and w f, of (u, v, w) = R0^T (q - o), are the columns of (sum f q^T - sum f o^T) R0.
+void add_moments(const AxisNode& node, const Piece<double>& piece, const MapForces& forces, Moments& to) {
+  Mat3 product;
+  Vec3 force;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) product(i, j) = forces.row[i][j];
+    force[i] = forces.row[i][3];
+  }
+  const Mat3 by = (product - force * node.origin.transpose()) * node.frame;
+  FrameForces on_frame{
+      {by(0, 0), by(1, 0), by(2, 0)}, {by(0, 1), by(1, 1), by(2, 1)}, {by(0, 2), by(1, 2), by(2, 2)}};
+  const Turn turn = turn_at(piece, node.s);  // in the frame before the turn, coordinates are turned instead
+  const Triple<double> u = on_frame.u;
+  on_frame.u = turn.cosine * u - turn.sine * on_frame.v;
+  on_frame.v = turn.sine * u + turn.cosine * on_frame.v;
+  const Moving<double> at = for_degree(
+      piece.degree, [&](auto degree) { return moving<double, decltype(degree)::value>(piece, node.s); });
+  add_at(node.s, piece.degree, {force.x(), force.y(), force.z()}, pull(at, on_frame), to);
+}
 
 Moments& Moments::operator+=(const Moments& other) {
   for (std::size_t j = 0; j < kMostTerms; ++j)

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "layout.h"
 #include "mesh/parallel.h"
 #include "moments.h"
+#include "place/layout.h"
 
 namespace tendril::bind {
 namespace {
@@ -63,6 +63,61 @@ void add_order(const std::vector<Piece<double>>& pieces, const Order& order, con
   for (std::size_t p = 0; p < parts.size(); ++p) to[parts[p].span] += sums[p];
 }
 
+/// force q^T, force: see MapForces.
+MapForces times_place(const Vec3& force, const Triple<double>& q) {
+  MapForces of;
+  for (int i = 0; i < 3; ++i) {
+    of.row[i][0] = force[i] * q.x;
+    of.row[i][1] = force[i] * q.y;
+    of.row[i][2] = force[i] * q.z;
+    of.row[i][3] = force[i];
+  }
+  return of;
+}
+
+void add(double share, const MapForces& force, MapForces& to) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) to.row[i][j] += share * force.row[i][j];
+}
+
+/// Of the shares of blends [begin, end), each node's.
+struct AddShares {
+  static TENDRIL_INLINE void run(const BindingLayout& layout, Points forces, std::size_t begin,
+                                 std::size_t end, MapForces* to) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto& blend = layout.blends[b];
+      const MapForces force = times_place(forces[blend.point], layout.numbers.place[b]);
+      const Row<double> x = force.vector(0), y = force.vector(1), z = force.vector(2);
+      for (std::size_t k = blend.begin; k < blend.end; ++k) {
+        const double share = layout.numbers.share[k];
+        MapForces& sum = to[layout.node[k]];
+        sum.vector(0) += share * x;
+        sum.vector(1) += share * y;
+        sum.vector(2) += share * z;
+      }
+    }
+  }
+};
+
+/// Adds the shares in nodes to the moments of their spans. The sums over a part of the blends are taken one
+/// after the other, and how many parts there are depends on the blends alone.
+void add_shares(const std::vector<Piece<double>>& pieces, const BindingLayout& layout, Points forces,
+                int threads, std::vector<Moments>& to) {
+  const std::size_t count = layout.blends.size(), parts = std::clamp<std::size_t>(count / 2048, 1, 16);
+  const std::size_t nodes = layout.nodes.size();
+  std::vector<MapForces> sums(parts * nodes, MapForces{});
+  in_parts(parts, threads, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      OnUnits<AddShares>::run(widest_unit(), layout, forces, count * p / parts, count * (p + 1) / parts,
+                              sums.data() + p * nodes);
+  });
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (std::size_t p = 1; p < parts; ++p) add(1.0, sums[p * nodes + n], sums[n]);
+    const AxisNode& node = layout.nodes[n];
+    add_moments(node, pieces[node.span], sums[n], to[node.span]);
+  }
+}
+
 /// From a span's polynomials to its control points: the transpose of pose().
 void add_to_controls(const Span& span, const Piece<double>& piece, const Moments& moments,
                      ControlForces& to) {
@@ -112,13 +167,7 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed, 
     add_order(
         pieces, layout.nearest, layout.numbers.nearest, threads,
         [&](std::size_t entry) { return Vec3(layout.kept[entry] * forces[entry]); }, moments);
-    add_order(
-        pieces, layout.others, layout.numbers.others, threads,
-        [&](std::size_t entry) {
-          const std::size_t k = entry - layout.size;
-          return Vec3(layout.share[k] * forces[layout.owner[k]]);
-        },
-        moments);
+    add_shares(pieces, layout, forces, threads, moments);
   }
   return to_controls(layout, [&](std::uint32_t s, ControlForces& to) {
     add_to_controls(layout.spans[s], pieces[s], moments[s], to);
@@ -132,23 +181,29 @@ std::vector<ControlForces> Binding::pull_back(std::span<const CurvePair> posed,
   check(forces, points.size(), 1);
   auto pieces = on_demand<double>(layout.spans, posed);
   std::vector<Moments> moments(layout.spans.size());
-  const auto add = [&](const Order& order, const Records<double>& records, std::size_t slot, const Vec3& f) {
-    const std::uint32_t span = order.run_of(slot).span;
-    double u, v;
-    const RecordsView<double> given = records.from(slot);
-    const Piece<double>& piece = pieces[span];
-    const RecordsView<double> one = piece.turned ? turn_records(piece, given, 1, &u, &v) : given;
-    add_moments(piece, one, {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
-  };
+  const auto make_none = [](std::uint32_t) { return MapForces{}; };
+  OnDemand<MapForces, decltype(make_none)> on_nodes(layout.nodes.size(), make_none);
   for (std::size_t i = 0; i < points.size(); ++i) {
     layout.require_point(points[i]);
     const BindingLayout::Blend* blend = layout.blend_of(points[i]);
-    const double kept = blend ? layout.kept[points[i]] : 1.0;
-    add(layout.nearest, layout.numbers.nearest, layout.slot[points[i]], kept * forces[i]);
+    const Vec3 f = (blend ? layout.kept[points[i]] : 1.0) * forces[i];
+    const std::size_t slot = layout.slot[points[i]];
+    const std::uint32_t span = layout.nearest.run_of(slot).span;
+    const Piece<double>& piece = pieces[span];
+    double u, v;
+    const RecordsView<double> given = layout.numbers.nearest.from(slot);
+    const RecordsView<double> one = piece.turned ? turn_records(piece, given, 1, &u, &v) : given;
+    add_moments(piece, one, {&f.x(), &f.y(), &f.z()}, 1, moments[span]);
     if (!blend) continue;
+    const MapForces force = times_place(forces[i], layout.place_of(layout.numbers, *blend));
     for (std::size_t k = blend->begin; k < blend->end; ++k)
-      add(layout.others, layout.numbers.others, layout.other_slot[k], layout.share[k] * forces[i]);
+      add(layout.numbers.share[k], force, on_nodes[layout.node[k]]);
   }
+  for (std::uint32_t n = 0; n < layout.nodes.size(); ++n)
+    if (on_nodes.has(n)) {
+      const AxisNode& node = layout.nodes[n];
+      add_moments(node, pieces[node.span], on_nodes[n], moments[node.span]);
+    }
   return to_controls(layout, [&](std::uint32_t s, ControlForces& to) {
     if (pieces.has(s)) add_to_controls(layout.spans[s], pieces[s], moments[s], to);
   });

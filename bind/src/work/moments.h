@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sweep.h"
+#include "place/axis_nodes.h"
 
 namespace tendril::bind {
 
@@ -12,6 +12,13 @@ struct Moments {
 };
 
 inline constexpr std::size_t kMomentChunk = 256;
+
+/// Sums over forces f with places q at rest, from rest_base, of share f q^T and, in the last column, share
+/// f: what they do to a node's map.
+using MapForces = AffineMap<double>;
+
+/// Adds what forces on the map of a node do to its span's polynomials.
+void add_moments(const AxisNode& node, const Piece<double>& piece, const MapForces& forces, Moments& to);
 
 /// Adds what forces on points of a span do to its polynomials: the transpose of evaluate() by c_j and d_j,
 /// the records fixed. Where there is no frame the point is taken to follow the curve alone. The sum has one
