@@ -35,32 +35,57 @@ bool meets(const std::array<Vec3, 3>& triangle, const Vec3& centre, const Vec3& 
   return !separates(edges[0].cross(edges[1]), t, half);
 }
 
+/// A segment and a box, the same way.
+bool meets(const Vec3& from, const Vec3& to, const Vec3& centre, const Vec3& half) {
+  const Vec3 p = from - centre, q = to - centre, along = q - p;
+  const auto apart = [&](double a, double b, double most) {
+    return std::min(a, b) > most || std::max(a, b) < -most;
+  };
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const Eigen::Index b = (a + 1) % 3, c = (a + 2) % 3;
+    if (apart(p[a], q[a], half[a])) return false;
+    // The axis a times the segment: the same number at either end.
+    const double at = along[b] * p[c] - along[c] * p[b];
+    if (std::abs(at) > std::abs(along[b]) * half[c] + std::abs(along[c]) * half[b]) return false;
+  }
+  return true;
+}
+
 constexpr double kTouch = 1e-9;  ///< voxels, by which a feature may miss one
 
+/// A convex polygon: a triangle cut by up to six planes has at most nine corners.
+struct Polygon {
+  std::array<Vec3, 9> p;
+  std::size_t size = 0;
+
+  void add(const Vec3& corner) { p[size++] = corner; }
+};
+
 /// The part of a convex polygon where s (p[axis] - at) >= 0.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, Eigen::Index axis, double at, double s) {
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+Polygon clipped(const Polygon& polygon, Eigen::Index axis, double at, double s) {
+  Polygon out;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Vec3 &p = polygon.p[i], &q = polygon.p[(i + 1) % polygon.size];
     const double from = s * (p[axis] - at), to = s * (q[axis] - at);
-    if (from >= 0.0) out.push_back(p);
-    if ((from < 0.0) != (to < 0.0)) out.push_back(p + (q - p) * (from / (from - to)));
+    if (from >= 0.0) out.add(p);
+    if ((from < 0.0) != (to < 0.0)) out.add(p + (q - p) * (from / (from - to)));
   }
   return out;
 }
 
 /// Adds the part of a triangle that lies in a voxel: its area, and its centre by area.
 void add_part(const std::array<Vec3, 3>& t, const Vec3& low, Vec3& sum, double& area) {
-  std::vector<Vec3> part(t.begin(), t.end());
+  Polygon part;
+  for (const Vec3& corner : t) part.add(corner);
   const Vec3 least = t[0].cwiseMin(t[1]).cwiseMin(t[2]) - low,
              most = t[0].cwiseMax(t[1]).cwiseMax(t[2]) - low;
   const bool within = least.minCoeff() >= 0.0 && most.maxCoeff() <= 1.0;
   for (Eigen::Index a = 0; a < 3 && !within; ++a)
     part = clipped(clipped(part, a, low[a], 1.0), a, low[a] + 1.0, -1.0);
-  for (std::size_t k = 2; k < part.size(); ++k) {
-    const double size = (part[k - 1] - part[0]).cross(part[k] - part[0]).norm();
+  for (std::size_t k = 2; k < part.size; ++k) {
+    const double size = (part.p[k - 1] - part.p[0]).cross(part.p[k] - part.p[0]).norm();
     area += size;
-    sum += size / 3.0 * (part[0] + part[k - 1] + part[k]);
+    sum += size / 3.0 * (part.p[0] + part.p[k - 1] + part.p[k]);
   }
 }
 
@@ -208,9 +233,9 @@ void BodyGrid::split_into_pieces(const PolygonMesh& mesh) {
       for (std::size_t e = 0; e < 3; ++e) {
         const std::uint32_t a = std::min(t[e], t[(e + 1) % 3]), b = std::max(t[e], t[(e + 1) % 3]);
         const Vec3 p = scaled(mesh.points[a]), q = scaled(mesh.points[b]);
-        if (meets({p, q, q}, centre, half)) features.push_back({a, b, order[k]});
-        const Vec3 corner = scaled(mesh.points[t[e]]);
-        if (meets({corner, corner, corner}, centre, half)) features.push_back({t[e], t[e], order[k]});
+        if (meets(p, q, centre, half)) features.push_back({a, b, order[k]});
+        const Vec3 corner = scaled(mesh.points[t[e]]) - centre;
+        if ((corner.cwiseAbs() - half).maxCoeff() <= 0.0) features.push_back({t[e], t[e], order[k]});
       }
     }
     std::sort(features.begin(), features.end());

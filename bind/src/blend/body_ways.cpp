@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include "body_grid.h"
 
@@ -151,12 +150,15 @@ std::uint32_t BodyGrid::piece_before(std::uint32_t cell, const Vec3& p) const {
 std::vector<float> BodyGrid::ways_from(const BSpline& curve) const {
   const auto cells = static_cast<std::uint32_t>(state_.size());  // pieces are numbered behind them
   std::vector<float> way(state_.size() + piece_cell_.size(), kFar);
-  using Entered = std::pair<float, std::uint32_t>;
-  std::priority_queue<Entered, std::vector<Entered>, std::greater<>> waiting;
+  // By the whole part of their lengths [Dial 1969]: no step is shorter than 1, so none of those with one
+  // part leads to another.
+  std::vector<std::vector<std::uint32_t>> waiting;
   const auto enter = [&](std::uint32_t at, float length) {
     if (!(length < way[at])) return;
     way[at] = length;
-    waiting.push({length, at});
+    const auto part = static_cast<std::size_t>(length);
+    if (part >= waiting.size()) waiting.resize(part + 1);
+    waiting[part].push_back(at);
   };
   for (const Vec3& p : samples(curve)) {
     const Cell c = cell_of(p);
@@ -165,14 +167,17 @@ std::vector<float> BodyGrid::ways_from(const BSpline& curve) const {
     const bool surface = state_[cell] == kSurface;
     enter(surface ? cells + piece_before(cell, p) : cell, static_cast<float>((p - middle_of(c)).norm()));
   }
-  while (!waiting.empty()) {
-    const auto [length, at] = waiting.top();
-    waiting.pop();
-    if (length > way[at]) continue;
-    if (at < cells)
-      leave_voxel(at, length, enter);
-    else
-      leave_piece(at - cells, length, enter);
+  std::vector<std::uint32_t> now;
+  for (std::size_t part = 0; part < waiting.size(); ++part) {
+    now.swap(waiting[part]);
+    for (const std::uint32_t at : now) {
+      if (static_cast<std::size_t>(way[at]) != part) continue;
+      if (at < cells)
+        leave_voxel(at, way[at], enter);
+      else
+        leave_piece(at - cells, way[at], enter);
+    }
+    now.clear();
   }
   std::vector<float> out(nodes_.size(), kFar);
   for (std::size_t piece = 0; piece < piece_nodes_.size(); ++piece)
@@ -185,12 +190,15 @@ std::vector<float> BodyGrid::ways_from(const BSpline& curve) const {
 /// is outside and has no ways, so no step leaves it.
 template <class Step>
 void BodyGrid::around(std::uint32_t cell, const Step& step) const {
-  const Cell c = cell_at(cell);
-  for (int k = 0; k < 27; ++k) {
-    const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
-    const std::uint32_t next = index({c[0] + x, c[1] + y, c[2] + z});
-    if (k != 13 && state_[next] != kOutside) step(next, std::sqrt(static_cast<float>(x * x + y * y + z * z)));
-  }
+  static constexpr float kLength[]{0.0F, 1.0F, 1.41421356F, 1.73205081F};
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y) {
+      const std::uint32_t row = cell + static_cast<std::uint32_t>((z * count_[1] + y) * count_[0]);
+      for (int x = -1; x <= 1; ++x) {
+        const std::uint32_t next = row + static_cast<std::uint32_t>(x);
+        if (next != cell && state_[next] != kOutside) step(next, kLength[x * x + y * y + z * z]);
+      }
+    }
 }
 
 template <class Enter>

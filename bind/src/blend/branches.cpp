@@ -88,7 +88,8 @@ struct BodyBranches::Data {
         band(width),
         axis(curves, width),
         grid(body, kVoxels),
-        ways(curves, grid, threads),
+        distances(curves, grid.nodes(), threads),
+        ways(curves, grid, distances, threads),
         lists(grid.nodes().size()),
         scales(lists.size()),
         margins(lists.size()) {
@@ -103,23 +104,32 @@ struct BodyBranches::Data {
     });
   }
 
-  template <class FactorOf>
-  std::vector<double> factors(const Candidate& nearest, const FactorOf& factor_of) const;
+  /// What is known of a point and a curve without a projection.
+  struct Known {
+    double factor;
+    CurveDistances::Bounds distance;
+  };
+  /// Adds what is known of each curve.
+  void know_node(std::uint32_t node, std::vector<Known>& out) const;
+  void know(const Vec3& p, const GridPlace& place, std::vector<Known>& out) const;
+
+  static Site site(const Vec3& p, double scale, std::span<const Known> known, std::span<const Candidate> all);
   Site site_of_node(std::uint32_t node) const;
   std::vector<Candidate> candidates(const Site& site) const;
-  template <class FactorOf>
-  void nearest_to(Points points, const FactorOf& factor_of, Candidate* out) const;
+  /// \param known  of each point and curve, point after point
+  void nearest_to(Points points, std::span<const Known> known, Candidate* out) const;
   void find_nearest(int threads);
   void find_scales();
   void find_margins(int threads);
   void open_by_nodes(const Vec3& p, const GridPlace& place, std::vector<Candidate>& list) const;
-  void bind(const Vec3& p, const GridPlace& place, Candidate& nearest, std::vector<Influence>& influences,
-            bool& gated, bool& cluster) const;
+  void bind(const Vec3& p, const GridPlace& place, std::span<const Known> known, Candidate& nearest,
+            std::vector<Influence>& influences, bool& gated, bool& cluster) const;
 
   std::span<const CurveProjector> projectors;
   double band;
   SoftAxis axis;
   BodyGrid grid;
+  CurveDistances distances;
   Ways ways;
   CandidateLists lists;  ///< per node, the nearest projection first; the others where they are asked for
   std::vector<double> scales,
@@ -128,18 +138,34 @@ struct BodyBranches::Data {
   std::vector<std::uint32_t> faces;  ///< one for each point of the body
 };
 
-/// Over that of the nearest.
-template <class FactorOf>
-std::vector<double> BodyBranches::Data::factors(const Candidate& nearest, const FactorOf& factor_of) const {
-  std::vector<double> out;
-  for (std::uint32_t k = 0; k < projectors.size(); ++k) out.push_back(factor_of(k) / nearest.factor);
+void BodyBranches::Data::know_node(std::uint32_t node, std::vector<Known>& out) const {
+  for (std::uint32_t k = 0; k < projectors.size(); ++k)
+    out.push_back({ways.factor(node, k), distances.bounds(k, node, 0.0)});
+}
+
+void BodyBranches::Data::know(const Vec3& p, const GridPlace& place, std::vector<Known>& out) const {
+  const auto heaviest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
+  const std::uint32_t node = place.node[static_cast<std::size_t>(heaviest)];
+  const double away = (p - grid.nodes()[node]).norm();
+  for (std::uint32_t k = 0; k < projectors.size(); ++k)
+    out.push_back({ways.factor(place, k), distances.bounds(k, node, away)});
+}
+
+/// Factors are over that of the nearest.
+Site BodyBranches::Data::site(const Vec3& p, double scale, std::span<const Known> known,
+                              std::span<const Candidate> all) {
+  Site out{p, std::max(kSmallest, scale), {}, {}, all};
+  for (const Known& one : known) {
+    out.factors.push_back(one.factor / out.nearest().factor);
+    out.least.push_back(one.distance.least);
+  }
   return out;
 }
 
 Site BodyBranches::Data::site_of_node(std::uint32_t node) const {
-  const Candidate& nearest = lists[node].front();
-  return {grid.nodes()[node], std::max(kSmallest, scales[node] / nearest.factor),
-          factors(nearest, [&](std::uint32_t k) { return ways.factor(node, k); }), lists[node]};
+  std::vector<Known> known;
+  know_node(node, known);
+  return site(grid.nodes()[node], scales[node] / lists[node].front().factor, known, lists[node]);
 }
 
 /// All projections that count, the nearest first.
@@ -149,10 +175,13 @@ std::vector<Candidate> BodyBranches::Data::candidates(const Site& site) const {
   std::vector<Candidate> out;
   for (std::uint32_t k = 0; k < projectors.size(); ++k) {
     const double most = reach / site.factors[k];
-    const double distance = k == nearest.pair ? nearest.at.distance : projectors[k].nearest(site.p).distance;
+    if (site.least[k] > most) continue;
+    Projection first = nearest.at;
+    if (k != nearest.pair) first = projectors[k].nearest(site.p);
+    const double distance = first.distance;
     if (distance > most) continue;
     const double within = distance > 0.0 ? most / distance - 1.0 : std::numeric_limits<double>::infinity();
-    for (const LocalMinimum& m : projectors[k].all(site.p, within, nearest.at.t))
+    for (const LocalMinimum& m : projectors[k].all(site.p, within, first.t))
       if (!(m.distance > most)) out.push_back({k, m, nearest.factor * site.factors[k]});
   }
   std::stable_sort(out.begin(), out.end(),
@@ -160,17 +189,32 @@ std::vector<Candidate> BodyBranches::Data::candidates(const Site& site) const {
   return out;
 }
 
-/// On any of the curves, of each point.
-/// \param factor_of  of a point's index and a curve
-template <class FactorOf>
-void BodyBranches::Data::nearest_to(Points points, const FactorOf& factor_of, Candidate* out) const {
+/// On any of the curves, of each point: projected to those alone that its bounds leave.
+void BodyBranches::Data::nearest_to(Points points, std::span<const Known> known, Candidate* out) const {
+  const std::size_t curves = projectors.size();
+  std::vector<double> most(points.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const Known& one : known.subspan(i * curves, curves))
+      most[i] = std::min(most[i], one.factor * one.distance.most);
+  std::vector<bool> any(points.size(), false);
+  std::vector<std::size_t> which;
+  std::vector<Vec3> some;
   for (std::uint32_t k = 0; k < projectors.size(); ++k) {
-    const std::vector<Projection> nearest = projectors[k].nearest(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Projection& at = nearest[i];
-      const double factor = factor_of(i, k);
-      if (k == 0 || factor * at.distance < out[i].distance())
+    which.clear();
+    some.clear();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (known[i * curves + k].factor * known[i * curves + k].distance.least <= most[i]) {
+        which.push_back(i);
+        some.push_back(points[i]);
+      }
+    const std::vector<Projection> nearest = projectors[k].nearest(some);
+    for (std::size_t n = 0; n < which.size(); ++n) {
+      const std::size_t i = which[n];
+      const Projection& at = nearest[n];
+      const double factor = known[i * curves + k].factor;
+      if (!any[i] || factor * at.distance < out[i].distance())
         out[i] = {k, {at, std::max(0.0, at.lambda), false, 1}, factor};
+      any[i] = true;
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -181,10 +225,9 @@ void BodyBranches::Data::nearest_to(Points points, const FactorOf& factor_of, Ca
 void BodyBranches::Data::find_nearest(int threads) {
   std::vector<Candidate> nearest(lists.size());
   in_parts(lists.size(), threads, [&](std::size_t begin, std::size_t end) {
-    const auto factor_of = [&](std::size_t i, std::uint32_t k) {
-      return ways.factor(static_cast<std::uint32_t>(begin + i), k);
-    };
-    nearest_to(grid.nodes().subspan(begin, end - begin), factor_of, nearest.data() + begin);
+    std::vector<Known> known;
+    for (std::size_t i = begin; i < end; ++i) know_node(static_cast<std::uint32_t>(i), known);
+    nearest_to(grid.nodes().subspan(begin, end - begin), known, nearest.data() + begin);
   });
   for (std::size_t i = 0; i < lists.size(); ++i) lists[i] = {nearest[i]};
 }
@@ -241,12 +284,12 @@ void BodyBranches::Data::open_by_nodes(const Vec3& p, const GridPlace& place,
 }
 
 /// \param nearest  of all curves
-void BodyBranches::Data::bind(const Vec3& p, const GridPlace& place, Candidate& nearest,
-                              std::vector<Influence>& influences, bool& gated, bool& cluster) const {
-  const auto factor_of = [&](std::uint32_t k) { return ways.factor(place, k); };
+void BodyBranches::Data::bind(const Vec3& p, const GridPlace& place, std::span<const Known> known,
+                              Candidate& nearest, std::vector<Influence>& influences, bool& gated,
+                              bool& cluster) const {
   const double scale = place.mean([&](std::uint32_t node) { return scales[node]; }) / nearest.factor;
   std::vector<Candidate> list{nearest};
-  Site here{p, std::max({kSmallest, nearest.at.distance, scale}), factors(nearest, factor_of), list};
+  Site here = site(p, std::max(nearest.at.distance, scale), known, list);
   // Of what they lack to 1, so that among nodes that lack nothing it is 1, not rounded.
   double margin = 1.0 - place.mean([&](std::uint32_t node) { return 1.0 - margins[node]; });
   const bool may_be = axis.may_be_ambiguous(here);
@@ -281,17 +324,22 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
   out.influences.resize(points.size());
   std::vector<std::uint8_t> gated(points.size(), 0), cluster(points.size(), 0);
   in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t curves = data_->projectors.size();
     std::vector<GridPlace> places;
-    for (std::size_t i = begin; i < end; ++i) places.push_back(data_->grid.place(points[i], face_of[i]));
-    const auto factor_of = [&](std::size_t i, std::uint32_t k) { return data_->ways.factor(places[i], k); };
-    data_->nearest_to(points.subspan(begin, end - begin), factor_of, out.nearest.data() + begin);
+    std::vector<Data::Known> known;
+    for (std::size_t i = begin; i < end; ++i) {
+      places.push_back(data_->grid.place(points[i], face_of[i]));
+      data_->know(points[i], places.back(), known);
+    }
+    data_->nearest_to(points.subspan(begin, end - begin), known, out.nearest.data() + begin);
     for (std::size_t i = begin; i < end; ++i) {
       if (const Candidate* held = data_->loose.held(face_of[i])) {
         out.nearest[i] = *held;
         continue;
       }
       bool is_gated = false, is_cluster = false;
-      data_->bind(points[i], places[i - begin], out.nearest[i], out.influences[i], is_gated, is_cluster);
+      data_->bind(points[i], places[i - begin], std::span(known).subspan((i - begin) * curves, curves),
+                  out.nearest[i], out.influences[i], is_gated, is_cluster);
       gated[i] = is_gated;
       cluster[i] = is_cluster;
     }

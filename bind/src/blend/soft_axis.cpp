@@ -7,7 +7,7 @@
 namespace tendril::bind {
 namespace {
 
-constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 16;
+constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 8;
 constexpr std::size_t kBlock = 8;         ///< samples
 constexpr double kRoom = 1e-9;            ///< for rounding, relative
 constexpr double kSamplesPerSide = 12.0;  ///< on either side of a minimum on a straight line
@@ -71,7 +71,7 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
   std::uint32_t first_node = 0;
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
-    Curve one{&curve, largest_speed(curve), {}, first_node, {}, {}, {}, {}, {}, 0.0, {}};
+    Curve one{&curve, largest_speed(curve), {}, first_node, {}, {}, {}, {}, {}, 0.0, {}, {}};
     const auto sample = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
@@ -84,14 +84,36 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
       if (one.points.size() % (kSamplesPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
     };
     sample(curve.knots().start());
-    for (const BezierPiece& piece : curve.bezier_pieces())
+    for (const BezierPiece& piece : curve.bezier_pieces()) {
+      one.polynomials.push_back(polynomial(piece));
       for (int k = 1; k <= kSamplesPerSpan; ++k)
         sample(k == kSamplesPerSpan ? piece.end
                                     : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
+    }
     one.blocks = blocks_of(one);
     first_node += static_cast<std::uint32_t>(one.nodes.size());
     curves_.push_back(std::move(one));
   }
+}
+
+/// c_j = (p over j) sum_i (-1)^(j - i) (j over i) (b_i - b_0) for j > 0: the differences j times over.
+SoftAxis::Polynomial SoftAxis::polynomial(const BezierPiece& piece) {
+  std::vector<Vec3> c(piece.points.begin(), piece.points.end());
+  for (std::size_t j = 1; j < c.size(); ++j)
+    for (std::size_t i = c.size(); i-- > j;) c[i] -= c[i - 1];
+  double choices = 1.0;
+  for (std::size_t j = 1; j < c.size(); ++j) {
+    choices *= static_cast<double>(c.size() - j) / static_cast<double>(j);
+    c[j] *= choices;
+  }
+  return {piece.begin, piece.end, std::move(c)};
+}
+
+Vec3 SoftAxis::Polynomial::value(double t) const {
+  const double s = (t - begin) / (end - begin);
+  Vec3 sum = c.back();
+  for (std::size_t j = c.size() - 1; j-- > 0;) sum = c[j] + s * sum;
+  return sum;
 }
 
 /// Neighbouring blocks have a sample in common, so that each pair of consecutive ones is in a block.
@@ -132,9 +154,12 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t 
   const double wanted = std::sqrt(room) / (kSamplesPerSide * curve.speed);
   const double step = std::exp2(std::floor(std::log2(std::max(wanted, 1e-6 * (end - start)))));
   std::vector<Sample> out;
+  const Polynomial* piece = curve.polynomials.data();
   const auto sample = [&](double index) {
     const double t = std::clamp(index * step, start, end);
-    const Vec3 c = curve.curve->value(t);
+    while (t > piece->end && piece + 1 != curve.polynomials.data() + curve.polynomials.size()) ++piece;
+    while (t < piece->begin && piece != curve.polynomials.data()) --piece;
+    const Vec3 c = piece->value(t);
     return Sample{t, (factor2 * (c - site.p).squaredNorm() - nearest * nearest) / room, c};
   };
   double done = std::floor(start / step) - 1.0;
@@ -205,6 +230,8 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
   std::vector<double> weight;
   double sum = 0.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    if (std::none_of(site.all.begin(), site.all.end(), [&](const Candidate& c) { return c.pair == pair; }))
+      continue;
     distribute(curves_[pair], samples(site, pair), weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
@@ -245,9 +272,11 @@ double SoftAxis::least_flatness(const Site& site, std::uint32_t pair, const Bloc
   return (excess / (band_ * site.scale) + (lambda + cosine) / band_) * (1.0 - kRoom) - kRoom;
 }
 
-double SoftAxis::flatness(const Site& site) const {
+double SoftAxis::flatness(Site& site) const {
+  if (site.flatness) return *site.flatness;
   double least = 1.0;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    if (!may_bear(site, pair)) continue;
     const std::vector<Vec3>& points = curves_[pair].points;
     const double reach = (site.nearest().at.distance + band_ * site.scale) / site.factors[pair];
     for (const Block& block : curves_[pair].blocks) {
@@ -262,10 +291,11 @@ double SoftAxis::flatness(const Site& site) const {
       }
     }
   }
+  site.flatness = least;
   return least;
 }
 
-double SoftAxis::cut_margin(const Site& site) const {
+double SoftAxis::cut_margin(Site& site) const {
   const Candidate& nearest = site.nearest();
   const double distance2 = (site.p - nearest.at.point).squaredNorm();
   const double here = curves_[nearest.pair].length(nearest.at.t);
@@ -282,7 +312,8 @@ double SoftAxis::cut_margin(const Site& site) const {
     const double round = pair == nearest.pair ? std::abs(length - here) / (2.0 * apart) : branches;
     margin = std::min(margin, excess / (apart2 * band_ * std::clamp(round, 1.0, branches)));
   };
-  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
+  for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
+    if (!may_bear(site, pair)) continue;
     for (const Block& block : curves_[pair].blocks) {
       const auto [away, apart] = bounds_of(block, site);
       const double least = site.factors[pair] * std::max(0.0, away);
@@ -292,6 +323,7 @@ double SoftAxis::cut_margin(const Site& site) const {
       for (std::size_t k = block.first; k <= block.last; ++k)
         consider(pair, curves_[pair].lengths[k], curves_[pair].points[k]);
     }
+  }
   for (const Candidate& c : site.all.subspan(1)) consider(c.pair, curves_[c.pair].length(c.at.t), c.at.point);
   return margin;
 }
@@ -300,12 +332,33 @@ double SoftAxis::blend_weight(double margin) {
   return fall(margin, 0.08, 1.0);
 }
 
-bool SoftAxis::may_be_ambiguous(const Site& site) const {
+bool SoftAxis::may_be_ambiguous(Site& site) const {
   if (site.nearest().at.strength < band_ || flatness(site) < 1.0) return true;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)
-    for (const Block& block : curves_[pair].blocks)
+    for (std::size_t b = 0; may_bear(site, pair) && b < curves_[pair].blocks.size(); ++b) {
+      const Block& block = curves_[pair].blocks[b];
       if (!is_clear(site, pair, block) && any_ambiguous(site, pair, block)) return true;
+    }
   return false;
+}
+
+/// With a the distance of a sample from p, less the samples' spacing, b = d + twice the spacing, d the
+/// distance and f the factor: the sample is at most a + b from the nearest point, and the terms of the margin
+/// are at least 1 where f a >= d + band scale and
+///
+///   f^2 a^2 - d^2 >= band (a + b) max(a + b, 2 scale).
+///
+/// That holds for all a from one on where both forms of it, with either of the two, hold and rise in a.
+bool SoftAxis::may_bear(const Site& site, std::uint32_t pair) const {
+  const Candidate& nearest = site.nearest();
+  if (pair == nearest.pair) return true;
+  const double spacing = curves_[pair].spacing, d = nearest.at.distance * (1.0 + kRoom),
+               f = site.factors[pair];
+  const double a = (site.least[pair] - spacing) * (1.0 - kRoom), b = d + 2.0 * spacing;
+  if (!(a > 0.0 && f * a >= d + band_ * site.scale * (1.0 + kRoom))) return true;
+  const double band = band_ * (1.0 + kRoom), left = f * f * a * a - d * d;
+  return !(left >= band * (a + b) * std::max(a + b, 2.0 * site.scale) && f * f * a >= band * (a + b) &&
+           f * f * a >= band * site.scale);
 }
 
 /// Whether no sample of a block can be one that any_ambiguous() looks for: none is nearer to p, or farther

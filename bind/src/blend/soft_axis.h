@@ -10,7 +10,9 @@ struct Site {
   const Vec3& p;
   double scale;                    ///< r of BindOptions::band: at least the distance to the nearest point
   std::vector<double> factors;     ///< those of Facing at p, one for each curve, over that of the nearest
+  std::vector<double> least;       ///< lower bounds of the distances from p to each curve
   std::span<const Candidate> all;  ///< every projection that counts, or the nearest alone; the nearest first
+  std::optional<double> flatness = {};  ///< once it is known
 
   const Candidate& nearest() const { return all.front(); }
 };
@@ -61,15 +63,23 @@ class SoftAxis {
   double reach(const Site& site) const { return site.nearest().at.distance + width(site); }
 
   /// The least of the terms above, each over the band: 0 on the cut locus, 1 and more beyond the band.
-  double cut_margin(const Site& site) const;
+  double cut_margin(Site& site) const;
   /// b of Binding: 1 up to the margin 0.08, falling to 0 at the margin 1 with a continuous derivative.
   static double blend_weight(double margin);
 
   /// False where cut_margin() is at least 1, whatever other projections there are; cheaper, and needs none of
   /// them.
-  bool may_be_ambiguous(const Site& site) const;
+  bool may_be_ambiguous(Site& site) const;
 
  private:
+  /// The curve between two knots: sum_j c_j s^j, s from 0 to 1.
+  struct Polynomial {
+    double begin, end;
+    std::vector<Vec3> c;
+
+    Vec3 value(double t) const;
+  };
+  static Polynomial polynomial(const BezierPiece& piece);
   /// Samples that follow each other, first and last included, within a ball. Of most, all are too far to
   /// matter, which one look at the ball tells.
   struct Block {
@@ -88,6 +98,7 @@ class SoftAxis {
     std::vector<double> parameters, lengths;
     std::vector<Vec3> points, tangents, curvatures;
     double spacing = 0.0;  ///< largest distance of consecutive samples
+    std::vector<Polynomial> polynomials;
     std::vector<Block> blocks;
 
     double length(double t) const;
@@ -98,11 +109,13 @@ class SoftAxis {
   };
 
   double width(const Site& site) const { return 2.0 * band_ * site.scale; }
+  /// False where no sample of a curve bears on the margin, as all of it is too far from p.
+  bool may_bear(const Site& site, std::uint32_t pair) const;
   /// Least, over the samples, of e + (max(lambda, 0) + |cosine|) / band: e is the excess of their distance
   /// over d in units of band scale, lambda as of a projection, cosine that between the tangent and the
   /// direction to p. Where two critical points of the distance are about to appear, lambda and the cosine,
   /// which are its second and first derivative up to factors, vanish together.
-  double flatness(const Site& site) const;
+  double flatness(Site& site) const;
   /// The same within a block, at least; cheap.
   double least_flatness(const Site& site, std::uint32_t pair, const Block& block) const;
   /// The same between the samples first and first + 1.

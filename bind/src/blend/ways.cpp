@@ -15,7 +15,8 @@ constexpr double kSlack = 2.0;               ///< voxels that a way is taken to 
 
 }  // namespace
 
-Ways::Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, int threads) {
+Ways::Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, const CurveDistances& distances,
+           int threads) {
   if (projectors.size() < 2) return;
   std::vector<const BSpline*> curves;
   for (const CurveProjector& projector : projectors) curves.push_back(&projector.curve());
@@ -33,18 +34,18 @@ Ways::Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, int threa
   in_parts(projectors.size(), threads, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const bool any = std::any_of(ways[k].begin(), ways[k].end(), [](float w) { return std::isfinite(w); });
-      const std::vector<Projection> nearest = projectors[k].nearest(grid.nodes());
+      const std::vector<double>& nearest = distances.to(static_cast<std::uint32_t>(k));
       std::vector<double>& log = log_[k];
       log.assign(nodes, 0.0);
       for (std::size_t i = 0; any && i < nodes; ++i) {
         const double way = static_cast<double>(ways[k][i]) / kDetour - kSlack * grid.spacing();
-        const double straight = std::max(nearest[i].distance, grid.spacing());
+        const double straight = std::max(nearest[i], grid.spacing());
         if (reached[i] && way > straight) log[i] = std::min(kMost, 2.0 * std::log(way / straight));
       }
       bound_growth(
           grid.nodes(), grid.neighbours(), [&](std::uint32_t i) -> double& { return log[i]; },
           [&](std::uint32_t i, double length) {
-            return kSlope * length / std::max(grid.spacing(), nearest[i].distance);
+            return kSlope * length / std::max(grid.spacing(), nearest[i]);
           });
     }
   });

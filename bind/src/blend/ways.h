@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "body_grid.h"
+#include "curve_distances.h"
 
 namespace tendril::bind {
 
@@ -19,7 +19,9 @@ namespace tendril::bind {
 /// curve that no way leads from, as none of it is near the body, and at nodes that no curve has a way to.
 class Ways {
  public:
-  Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, int threads);
+  /// \param distances  of the grid's nodes
+  Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, const CurveDistances& distances,
+       int threads);
 
   double factor(std::uint32_t node, std::uint32_t pair) const {
     return log_.empty() ? 1.0 : std::exp(log_[pair][node]);

@@ -39,6 +39,7 @@ void bound_growth(Points points, const Neighbours& neighbours, const Value& valu
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
   const auto spread = [&](std::uint32_t from) {
     for (const std::uint32_t next : neighbours.of(from)) {
+      if (!(value(from) < value(next))) continue;  // which no growth of 0 or more brings down
       const double length = (points[next] - points[from]).norm();
       const auto most = static_cast<Number>(static_cast<double>(value(from)) + growth(next, length));
       if (!(most < value(next))) continue;
