@@ -23,14 +23,13 @@ using CandidateLists = std::vector<std::vector<Candidate>>;
 
 /// Whether two projections of neighbours belong to one branch: seen from the middle of the two, no maximum of
 /// the distance lies between them (which is sampled).
-bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle, const Candidate& a,
-                 const Candidate& b) {
+bool same_branch(const SoftAxis& axis, const Vec3& middle, const Candidate& a, const Candidate& b) {
   if (a.pair != b.pair) return false;
   const double to_a = (a.at.point - middle).norm(), to_b = (b.at.point - middle).norm();
   const double most = std::max(to_a, to_b) * (1.0 + 1e-9);
   for (const double part : {0.25, 0.5, 0.75}) {
     const double t = a.at.t + part * (b.at.t - a.at.t);
-    if ((projectors[a.pair].curve().value(t) - middle).norm() > most) return false;
+    if ((axis.value(a.pair, t) - middle).norm() > most) return false;
   }
   return true;
 }
@@ -40,8 +39,8 @@ bool same_branch(std::span<const CurveProjector> projectors, const Vec3& middle,
 /// projections.
 class Gate {
  public:
-  Gate(std::span<const CurveProjector> projectors, const BodyGrid& grid, CandidateLists& lists)
-      : projectors_(projectors), grid_(grid), lists_(lists) {}
+  Gate(const SoftAxis& axis, const BodyGrid& grid, CandidateLists& lists)
+      : axis_(axis), grid_(grid), lists_(lists) {}
 
   void run() {
     for (auto& list : lists_)
@@ -67,13 +66,12 @@ class Gate {
   }
   void spread(const Reached& node, std::uint32_t next) {
     for (std::size_t k = 1; k < lists_[next].size(); ++k)
-      if (!lists_[next][k].open &&
-          same_branch(projectors_, 0.5 * (grid_.nodes()[node.point] + grid_.nodes()[next]),
-                      lists_[node.point][node.which], lists_[next][k]))
+      if (!lists_[next][k].open && same_branch(axis_, 0.5 * (grid_.nodes()[node.point] + grid_.nodes()[next]),
+                                               lists_[node.point][node.which], lists_[next][k]))
         enter(next, k);
   }
 
-  std::span<const CurveProjector> projectors_;
+  const SoftAxis& axis_;
   const BodyGrid& grid_;
   CandidateLists& lists_;
   std::vector<Reached> waiting_;
@@ -97,7 +95,7 @@ struct BodyBranches::Data {
     find_scales();
     find_margins(threads);
     if (std::any_of(lists.begin(), lists.end(), [](const auto& list) { return list.size() > 1; }))
-      Gate(projectors, grid, lists).run();
+      Gate(axis, grid, lists).run();
     faces = grid.faces_of_points(body);
     loose = LooseParts(body, projectors, [&](std::uint32_t point, std::uint32_t pair) {
       return ways.factor(grid.place(body.points[point], faces[point]), pair);
@@ -278,7 +276,7 @@ void BodyBranches::Data::open_by_nodes(const Vec3& p, const GridPlace& place,
       if (!(place.weight[n] > 0.0)) continue;
       const Vec3 middle = 0.5 * (p + grid.nodes()[place.node[n]]);
       for (const Candidate& c : lists[place.node[n]])
-        if (c.open && same_branch(projectors, middle, c, list[k])) list[k].open = true;
+        if (c.open && same_branch(axis, middle, c, list[k])) list[k].open = true;
     }
   }
 }

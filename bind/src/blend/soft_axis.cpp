@@ -218,6 +218,13 @@ void SoftAxis::distribute(const Curve& curve, std::span<const Sample> along, std
   }
 }
 
+Vec3 SoftAxis::value(std::uint32_t pair, double t) const {
+  const std::vector<Polynomial>& all = curves_[pair].polynomials;
+  const auto after = std::upper_bound(all.begin() + 1, all.end(), t,
+                                      [](double at, const Polynomial& p) { return at < p.begin; });
+  return std::prev(after)->value(t);
+}
+
 std::vector<Node> SoftAxis::nodes() const {
   std::vector<Node> out;
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair)

@@ -55,6 +55,9 @@ class SoftAxis {
   /// Of all curves, ascending.
   std::vector<Node> nodes() const;
 
+  /// A point of a curve.
+  Vec3 value(std::uint32_t pair, double t) const;
+
   /// The nodes with a weight, which sum to 1. Projections that are not open are left out with their part of
   /// the curve.
   std::vector<Influence> influences(const Site& site) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <string>
 #include <tuple>
 
@@ -26,11 +27,13 @@ Vec3 carried(const Frame& rest, const Frame& posed, const Vec3& v) {
   return rest.x.dot(v) * posed.x + rest.y.dot(v) * posed.y + rest.z.dot(v) * posed.z;
 }
 
-/// Smallest value that at least this share of the sorted values does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0.0;
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+/// Smallest value that at least this share of the values does not exceed; puts them in another order.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(1.0, rank)) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 double ratio(double now, double before) {
@@ -45,14 +48,16 @@ void check(const JudgeOptions& options) {
     throw InvalidInput("least_gap", std::to_string(options.least_gap), "1e-6 to 1");
 }
 
-/// The mesh as it is judged first.
-TriangleMesh first_level(const PolygonMesh& mesh, const JudgeOptions& options) {
+/// The mesh as it is judged, from the first level on.
+std::vector<TriangleMesh> levels_of(const PolygonMesh& mesh, const JudgeOptions& options) {
   check(options);
   require_valid(mesh);
   TriangleMesh now(mesh);
   if (now.edges.empty()) throw InvalidInput("mesh", "no faces", "a mesh with edges");
   while (now.edges.size() < options.least_edges) now = now.split();
-  return now;
+  std::vector<TriangleMesh> out{std::move(now)};
+  for (int k = 0; k < options.refinements; ++k) out.push_back(out.back().split());
+  return out;
 }
 
 /// The first `count` by `before`, and in this order. Of hundreds of thousands a few hundred are wanted.
@@ -117,17 +122,19 @@ struct TearJudge::Data {
         threads(bind.threads),
         diagonal(bounding_diagonal(mesh.points)),
         rest(curves.begin(), curves.end()),
+        meshes(std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
+                          [&] { return levels_of(mesh, asked); })),
         binder(rest, mesh, bind),
         own(binder.bind(mesh.points, {})) {
-    TriangleMesh now = first_level(mesh, options);
-    const bool split = now.mesh.points.size() > mesh.points.size();
-    add(now, split ? binder.bind(now.mesh.points, own_faces(mesh, now)) : own);
-    for (int k = 0; k < options.refinements; ++k) {
+    std::vector<TriangleMesh> made = meshes.get();
+    const bool split = made[0].mesh.points.size() > mesh.points.size();
+    Binding first = split ? binder.bind(made[0].mesh.points, own_faces(mesh, made[0])) : own;
+    add(std::move(made[0]), std::move(first));
+    for (std::size_t k = 1; k < made.size(); ++k) {
       const TriangleMesh& before = levels.back().triangles;
-      TriangleMesh next = before.split();
-      const Points middles = Points(next.mesh.points).subspan(before.mesh.points.size());
+      const Points middles = Points(made[k].mesh.points).subspan(before.mesh.points.size());
       Binding added = binder.bind(middles, before.faces_of_edges());
-      add(std::move(next), std::move(added));
+      add(std::move(made[k]), std::move(added));
     }
   }
 
@@ -144,6 +151,7 @@ struct TearJudge::Data {
   int threads;
   double diagonal;
   std::vector<CurvePair> rest;
+  std::future<std::vector<TriangleMesh>> meshes;  ///< made while the binder is
   SurfaceBinder binder;
   Binding own;
   std::vector<Level> levels;
@@ -185,12 +193,11 @@ JudgeLevel TearJudge::Data::look_at(const Level& level, std::span<const CurvePai
   edges = stretches(level.triangles, points);
   std::vector<double> stretch(edges.size());
   std::transform(edges.begin(), edges.end(), stretch.begin(), [](const WorstEdge& e) { return e.stretch; });
-  std::sort(stretch.begin(), stretch.end());
   JudgeLevel now{points.size(), level.triangles.edges.size(), level.triangles.mesh.face_count()};
   for (std::size_t q = 0; q < kJudgeShares.size(); ++q) now.quantile[q] = quantile(stretch, kJudgeShares[q]);
-  now.max = stretch.empty() ? 0.0 : stretch.back();
-  now.beyond = static_cast<std::size_t>(stretch.end() -
-                                        std::upper_bound(stretch.begin(), stretch.end(), options.limit));
+  now.max = stretch.empty() ? 0.0 : *std::max_element(stretch.begin(), stretch.end());
+  now.beyond = static_cast<std::size_t>(
+      std::count_if(stretch.begin(), stretch.end(), [&](double s) { return s > options.limit; }));
   now.flipped = flipped(level.triangles, posed, points);
   now.rest_error = level.added.report().rest_error;
   now.ambiguous = level.added.report().ambiguous.size();
