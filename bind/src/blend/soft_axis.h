@@ -111,6 +111,8 @@ class SoftAxis {
     Vec3 point;
   };
 
+  static constexpr double kRoom = 1e-9;  ///< for rounding, relative
+
   double width(const Site& site) const { return 2.0 * band_ * site.scale; }
   /// False where no sample of a curve bears on the margin, as all of it is too far from p.
   bool may_bear(const Site& site, std::uint32_t pair) const;

@@ -15,11 +15,11 @@ inline void require_threads(int threads) {
   if (threads < 1 || threads > 256) throw InvalidInput("threads", std::to_string(threads), "1 to 256");
 }
 
-/// Runs body(begin, end) over [0, count) in contiguous parts of at least `least` each, which each thread takes
-/// as it comes to them: some cost much more than others. What a part writes must depend on its own indices
-/// only: then the result is the same for any number of threads. An exception in another thread ends the
-/// program, so bodies check their input before. Where a thread cannot be started, those running are waited
-/// for and std::system_error goes up.
+/// Runs body(begin, end) over [0, count) in contiguous parts of at least `least` each, which each thread
+/// takes as it comes to them: some cost much more than others. What a part writes must depend on its own
+/// indices only: then the result is the same for any number of threads. An exception in another thread ends
+/// the program, so bodies check their input before. Where a thread cannot be started, those running are
+/// waited for and std::system_error goes up.
 template <class Body>
 void in_parts(std::size_t count, int threads, std::size_t least, const Body& body) {
   constexpr std::size_t kPartsEach = 8;
