@@ -50,8 +50,8 @@ OrderedJson to_json(const bind::BindReport& report, const Axes& axes) {
           {"loose", loose}};
 }
 
-constexpr double kSecondsAlways = 0.3, kSecondsPerPoint = 1e-5;
-constexpr double kSecondsPerBranch = 0.08, kMorePerBranch = 0.08;
+constexpr double kSecondsAlways = 0.2, kSecondsPerPoint = 1.1e-5;
+constexpr double kSecondsPerBranch = 0.035, kMorePerBranch = 0.05;
 constexpr double kMegabytesAlways = 55.0, kMegabytesPerPoint = 6e-4;
 
 /// Share of a mesh's area that a pose may spoil and still be right.

@@ -31,8 +31,10 @@ struct BindingLayout;  ///< the flat arrays, private to the module
 ///
 /// An update goes span by span through records in binding order: points sorted by curve-pair and span, those
 /// off the normal plane of their projection last, otherwise as they were given. The same bits for any number
-/// of threads, on any vector unit, and for a point alone. Memory: about 80 bytes a share. Construction costs
-/// a projection a point, an update two polynomials and a frame for each share.
+/// of threads, on any vector unit, and for a point alone. The other shares of blended points are in fixed
+/// places of the axes, whose rigid maps a pose finds once. Memory: about 80 bytes a point, 12 a share more.
+/// Construction costs a projection a point and curve that may be its nearest, an update two polynomials and a
+/// frame a point, and twelve sums a share.
 class TENDRIL_BIND_API Binding {
  public:
   /// Each point to its nearest projection.
@@ -87,7 +89,7 @@ class TENDRIL_BIND_API Binding {
   /// The transpose of update: forces on the points as forces on the control points that do the same virtual
   /// work, turns (CurvePair::set_turn) held, with the same resultant force and torque. A point without a
   /// frame (closer than 1e-8 to degenerate) is taken to follow the curve's point alone. At most 3 updates'
-  /// time; same bits for any number of threads.
+  /// time, 5 where many points are blended; same bits for any number of threads.
   /// \param posed    as for update
   /// \param forces   size() finite vectors; else InvalidInput
   /// \param threads  1 to 256; else InvalidInput
