@@ -47,7 +47,7 @@ TEST_P(EveryMesh, DoesNotTear) {
       print(axis.name, pose, "continuous", report);
       EXPECT_EQ(report.verdict, TearVerdict::smooth) << axis.name << pose;
       for (const double growth : report.growth) EXPECT_LE(growth, 1.1) << axis.name << pose;
-      EXPECT_LE(report.growth_of_max, 1.6) << axis.name << pose;
+      EXPECT_LE(report.growth_of_max, 1.65) << axis.name << pose;  // of a tear 2 and more
       EXPECT_LE(report.levels.back().rest_error, 1e-13 * bounding_diagonal(mesh.points));
     }
   }

@@ -7,10 +7,10 @@
 namespace tendril::bind {
 namespace {
 
-constexpr int kNodesPerSpan = 2, kSamplesPerSpan = 8;
-constexpr std::size_t kBlock = 8;         ///< samples
-constexpr double kSamplesPerSide = 12.0;  ///< on either side of a minimum on a straight line
-constexpr double kFaint = 1e-3;           ///< weight that fades to nothing
+constexpr int kNodesPerSpan = 2;
+constexpr std::size_t kBlock = 8;        ///< samples
+constexpr double kSamplesPerSide = 6.0;  ///< at least 1.4 times these beside a minimum on a straight line
+constexpr double kFaint = 1e-3;          ///< weight that fades to nothing
 
 /// Interval of an ascending list that holds t, and the share of it before t.
 struct Bracket {
@@ -23,6 +23,12 @@ Bracket bracket(const std::vector<double>& list, double t) {
   const auto right = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(found, 1, static_cast<std::ptrdiff_t>(list.size()) - 1));
   return {right, (t - list[right - 1]) / (list[right] - list[right - 1])};
+}
+
+/// Samples of a span: 16, or fewer where the curve has some hundreds all the same.
+int samples_per_span(std::size_t spans) {
+  constexpr std::size_t kEnough = 300;
+  return spans * 4 >= kEnough ? 4 : spans * 8 >= kEnough ? 8 : 16;
 }
 
 double largest_speed(const BSpline& curve) {
@@ -64,6 +70,8 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
   for (const CurveProjector& projector : projectors) {
     const BSpline& curve = projector.curve();
     Curve one{&curve, largest_speed(curve), {}, first_node, {}, {}, {}, {}, {}, 0.0, {}, {}};
+    const std::vector<BezierPiece> pieces = curve.bezier_pieces();
+    const int per_span = samples_per_span(pieces.size());
     const auto sample = [&](double t) {
       const Vec3 point = curve.value(t);
       const double step = one.points.empty() ? 0.0 : (point - one.points.back()).norm();
@@ -73,14 +81,13 @@ SoftAxis::SoftAxis(std::span<const CurveProjector> projectors, double band) : ba
       one.points.push_back(point);
       one.tangents.push_back(tangent(curve, t));
       one.curvatures.push_back(curvature(curve, t));
-      if (one.points.size() % (kSamplesPerSpan / kNodesPerSpan) == 1) one.nodes.push_back(t);
+      if (one.points.size() % static_cast<std::size_t>(per_span / kNodesPerSpan) == 1) one.nodes.push_back(t);
     };
     sample(curve.knots().start());
-    for (const BezierPiece& piece : curve.bezier_pieces()) {
+    for (const BezierPiece& piece : pieces) {
       one.polynomials.push_back(polynomial(piece));
-      for (int k = 1; k <= kSamplesPerSpan; ++k)
-        sample(k == kSamplesPerSpan ? piece.end
-                                    : piece.begin + (piece.end - piece.begin) * k / kSamplesPerSpan);
+      for (int k = 1; k <= per_span; ++k)
+        sample(k == per_span ? piece.end : piece.begin + (piece.end - piece.begin) * k / per_span);
     }
     one.blocks = blocks_of(one);
     first_node += static_cast<std::uint32_t>(one.nodes.size());
@@ -127,19 +134,17 @@ std::vector<SoftAxis::Block> SoftAxis::blocks_of(const Curve& curve) {
   return out;
 }
 
-/// Samples at multiples of a power of two, so that they do not move with p, marching both ways from each
-/// minimum to where the weight ends.
-std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t pair) const {
+/// Samples at multiples of a step that is a power of two, so that they do not move with p, marching both ways
+/// from each minimum to where the weight ends.
+std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t pair, double step) const {
   const Curve& curve = curves_[pair];
   std::vector<double> minima;
   for (const Candidate& c : site.all)
     if (c.pair == pair && c.open) minima.push_back(c.at.t);
   std::sort(minima.begin(), minima.end());
   const double nearest = site.nearest().at.distance, factor2 = site.factors[pair] * site.factors[pair];
-  const double room = width(site) * (2.0 * nearest + width(site));
+  const double room = this->room(site);
   const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
-  const double wanted = std::sqrt(room) / (kSamplesPerSide * curve.speed);
-  const double step = std::exp2(std::floor(std::log2(std::max(wanted, 1e-6 * (end - start)))));
   std::vector<Sample> out;
   const Polynomial* piece = curve.polynomials.data();
   const auto sample = [&](double index) {
@@ -191,17 +196,21 @@ void SoftAxis::raise_behind_maxima(std::span<const double> minima, std::vector<S
   }
 }
 
-void SoftAxis::distribute(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight) {
-  weight.assign(curve.nodes.size(), 0.0);
+void SoftAxis::distribute(const Curve& curve, std::span<const Sample> along, double part,
+                          std::vector<double>& weight) {
+  if (along.empty()) return;
+  std::size_t right = bracket(curve.nodes, along.front().t).right;
   for (std::size_t k = 0; k < along.size(); ++k) {
     if (along[k].excess >= 1.0) continue;
     const Vec3& before = along[k > 0 ? k - 1 : k].point;
     const Vec3& after = along[k + 1 < along.size() ? k + 1 : k].point;
     const double rest = 1.0 - std::max(0.0, along[k].excess);
-    const double w = rest * rest * rest * (after - before).norm();
-    const Bracket at = bracket(curve.nodes, along[k].t);
-    weight[at.right - 1] += (1.0 - at.part) * w;
-    weight[at.right] += at.part * w;
+    const double w = part * rest * rest * rest * (after - before).norm();
+    while (right + 1 < curve.nodes.size() && curve.nodes[right] <= along[k].t) ++right;
+    const double share =
+        (along[k].t - curve.nodes[right - 1]) / (curve.nodes[right] - curve.nodes[right - 1]);
+    weight[right - 1] += (1.0 - share) * w;
+    weight[right] += share * w;
   }
 }
 
@@ -226,7 +235,14 @@ std::vector<Influence> SoftAxis::influences(const Site& site) const {
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
     if (std::none_of(site.all.begin(), site.all.end(), [&](const Candidate& c) { return c.pair == pair; }))
       continue;
-    distribute(curves_[pair], samples(site, pair), weight);
+    const Curve& curve = curves_[pair];
+    const double length = curve.curve->knots().end() - curve.curve->knots().start();
+    const double wanted = std::sqrt(room(site)) / (kSamplesPerSide * curve.speed);
+    const double level = std::log2(std::max(wanted, 1e-6 * length)), whole = std::floor(level);
+    const double step = std::exp2(whole), coarse = level - whole;
+    weight.assign(curve.nodes.size(), 0.0);
+    distribute(curve, samples(site, pair, step), coarse, weight);
+    distribute(curve, samples(site, pair, 0.5 * step), 1.0 - coarse, weight);
     for (std::size_t k = 0; k < weight.size(); ++k) {
       sum += weight[k];
       if (weight[k] > 0.0)

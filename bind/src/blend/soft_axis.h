@@ -125,7 +125,11 @@ class SoftAxis {
   double least_flatness(const Site& site, std::uint32_t pair, const Block& block) const;
   /// The same between the samples first and first + 1.
   double flatness(const Site& site, std::uint32_t pair, std::size_t first) const;
-  std::vector<Sample> samples(const Site& site, std::uint32_t pair) const;
+  std::vector<Sample> samples(const Site& site, std::uint32_t pair, double step) const;
+  /// What of the way a distance may be from the nearest one, and still count, squared.
+  double room(const Site& site) const {
+    return width(site) * (2.0 * site.nearest().at.distance + width(site));
+  }
   static std::vector<Block> blocks_of(const Curve& curve);
   /// Least distance of a block's samples from p, and most from the nearest point of the site.
   struct Bounds {
@@ -135,7 +139,8 @@ class SoftAxis {
   bool is_clear(const Site& site, std::uint32_t pair, const Block& block) const;
   bool any_ambiguous(const Site& site, std::uint32_t pair, const Block& block) const;
   static void raise_behind_maxima(std::span<const double> minima, std::vector<Sample>& along);
-  static void distribute(const Curve& curve, std::span<const Sample> along, std::vector<double>& weight);
+  static void distribute(const Curve& curve, std::span<const Sample> along, double part,
+                         std::vector<double>& weight);
 
   double band_;
   std::vector<Curve> curves_;

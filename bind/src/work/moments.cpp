@@ -13,11 +13,6 @@ struct Pulled {
   Triple<double> z, d;
 };
 
-/// Of forces on points of a frame: the sums of u f, v f and w f.
-struct FrameForces {
-  Triple<double> u, v, w;
-};
-
 /// The point is c + u X + v Y + w Z with z = c', x = d x z, X = x / |x|, Z = z / |z|, Y = Z x X. Under a
 /// change of z and d the force f does the work
 ///
@@ -27,12 +22,16 @@ struct FrameForces {
 /// by the cyclic symmetry of the triple product. Of a unit vector, dX = (dx - X (X . dx)) / |x|, so with h_x
 /// the part of g_x across X over |x|, and h_z likewise, the work is h_x . dx + h_z . dz. At last dx = dd x z
 /// + d x dz: z x h_x is the force on d, and h_z + h_x x d that on z.
-TENDRIL_INLINE Pulled pull(const Moving<double>& at, const FrameForces& f) {
+/// \param fu, fv, fw  sums of u f, v f and w f
+template <int P>
+TENDRIL_INLINE Pulled pull(const Piece<double>& piece, double s, const Triple<double>& fu,
+                           const Triple<double>& fv, const Triple<double>& fw) {
+  const Moving<double> at = moving<double, P>(piece, s);
   const Lengths<double> inverse = inverse_lengths(at);
   const Triple<double> x = inverse.x * at.x;
   const Triple<double> z = inverse.z * at.z;
-  const Triple<double> gx = f.u + cross(f.v, z);
-  const Triple<double> gz = f.w + cross(x, f.v);
+  const Triple<double> gx = fu + cross(fv, z);
+  const Triple<double> gz = fw + cross(x, fv);
   const Triple<double> hx = inverse.x * (gx - dot(x, gx) * x);
   const Triple<double> hz = inverse.z * (gz - dot(z, gz) * z);
   const Triple<double> on_z = hz + cross(hx, at.offset);
@@ -55,7 +54,7 @@ TENDRIL_INLINE void pull_all(const Piece<double>& piece, const RecordsView<doubl
   TENDRIL_LOOP
   for (std::size_t i = 0; i < count; ++i) {
     const Triple<double> f{to.f[0][i], to.f[1][i], to.f[2][i]};
-    const Pulled at = pull(moving<double, P>(local, to.s[i]), {u[i] * f, v[i] * f, w[i] * f});
+    const Pulled at = pull<P>(local, to.s[i], u[i] * f, v[i] * f, w[i] * f);
     to.z[0][i] = at.z.x;
     to.z[1][i] = at.z.y;
     to.z[2][i] = at.z.z;
@@ -159,15 +158,14 @@ void add_moments(const AxisNode& node, const Piece<double>& piece, const MapForc
     force[i] = forces.row[i][3];
   }
   const Mat3 by = (product - force * node.origin.transpose()) * node.frame;
-  FrameForces on_frame{
-      {by(0, 0), by(1, 0), by(2, 0)}, {by(0, 1), by(1, 1), by(2, 1)}, {by(0, 2), by(1, 2), by(2, 2)}};
+  const auto column = [&](int k) { return Triple<double>{by(0, k), by(1, k), by(2, k)}; };
   const Turn turn = turn_at(piece, node.s);  // in the frame before the turn, coordinates are turned instead
-  const Triple<double> u = on_frame.u;
-  on_frame.u = turn.cosine * u - turn.sine * on_frame.v;
-  on_frame.v = turn.sine * u + turn.cosine * on_frame.v;
-  const Moving<double> at = for_degree(
-      piece.degree, [&](auto degree) { return moving<double, decltype(degree)::value>(piece, node.s); });
-  add_at(node.s, piece.degree, {force.x(), force.y(), force.z()}, pull(at, on_frame), to);
+  const Triple<double> fu = turn.cosine * column(0) - turn.sine * column(1);
+  const Triple<double> fv = turn.sine * column(0) + turn.cosine * column(1);
+  const Pulled on = for_degree(piece.degree, [&](auto degree) {
+    return pull<decltype(degree)::value>(piece, node.s, fu, fv, column(2));
+  });
+  add_at(node.s, piece.degree, {force.x(), force.y(), force.z()}, on, to);
 }
 
 Moments& Moments::operator+=(const Moments& other) {

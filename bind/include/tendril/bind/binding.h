@@ -88,8 +88,8 @@ class TENDRIL_BIND_API Binding {
 
   /// The transpose of update: forces on the points as forces on the control points that do the same virtual
   /// work, turns (CurvePair::set_turn) held, with the same resultant force and torque. A point without a
-  /// frame (closer than 1e-8 to degenerate) is taken to follow the curve's point alone. At most 3 updates'
-  /// time, 5 where many points are blended; same bits for any number of threads.
+  /// frame (closer than 1e-8 to degenerate) is taken to follow the curve's point alone. Some 3 updates'
+  /// time; same bits for any number of threads.
   /// \param posed    as for update
   /// \param forces   size() finite vectors; else InvalidInput
   /// \param threads  1 to 256; else InvalidInput
