@@ -31,8 +31,8 @@ struct BindingLayout;  ///< the flat arrays, private to the module
 ///
 /// An update goes span by span through records in binding order: points sorted by curve-pair and span, those
 /// off the normal plane of their projection last, otherwise as they were given. The same bits for any number
-/// of threads, on any vector unit, and for a point alone. Blended points follow fixed places of the axes, whose
-/// rigid maps a pose finds once: two polynomials and a frame a point, twelve sums a share, 80 and 12 bytes.
+/// of threads, on any vector unit, and for a point alone. Blended points follow fixed places of the axes,
+/// whose rigid maps a pose finds once. Memory: 80 bytes a point, 12 a share.
 class TENDRIL_BIND_API Binding {
  public:
   /// Each point to its nearest projection.
