@@ -6,7 +6,7 @@
 #include "bind/unit_missing.h"
 #include "support/pairs.h"
 #include "support/random.h"
-#include "work/moments.h"
+#include "differential/moments.h"
 
 namespace tendril::bind {
 namespace {
