@@ -23,6 +23,17 @@ function(tendril_shared target)
   endif()
 endfunction()
 
+# Compile options of single sources. One that is not there is an error: CMake itself would say nothing, and a source that
+# moved would lose them.
+function(tendril_source_options options)
+  foreach(source IN LISTS ARGN)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+      message(FATAL_ERROR "options for ${source}, which is no file of ${CMAKE_CURRENT_SOURCE_DIR}")
+    endif()
+  endforeach()
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
+endfunction()
+
 # Where TENDRIL_UNITY is on, sources of the target are compiled together: eight at a time, or as the properties say.
 function(tendril_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TENDRIL_UNITY} ${ARGN})
