@@ -4,9 +4,9 @@
 #include <tendril/bind/judge.h>
 
 #include "bind/unit_missing.h"
+#include "differential/moments.h"
 #include "support/pairs.h"
 #include "support/random.h"
-#include "differential/moments.h"
 
 namespace tendril::bind {
 namespace {

@@ -1,7 +1,5 @@
 #include "axis_nodes.h"
 
-#include <cmath>
-
 namespace tendril::bind {
 namespace {
 
@@ -32,13 +30,6 @@ FrameColumns columns_of(const AxisNode& node, const Piece<double>& piece, const 
 }
 
 }  // namespace
-
-Turn turn_at(const Piece<double>& piece, double s) {
-  if (!piece.turned) return {1.0, 0.0};
-  double angle = 0.0;
-  for (std::size_t j = kMostTerms; j-- > 0;) angle = piece.turn[j] + s * angle;
-  return {std::cos(angle), std::sin(angle)};
-}
 
 template <class T>
 AffineMap<T> map_between(const AxisNode& node, const FrameColumns& to) {

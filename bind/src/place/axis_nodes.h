@@ -36,12 +36,6 @@ struct FrameColumns {
   Triple<double> origin, x, y, z;
 };
 
-/// By what the piece turns its frame at s.
-struct Turn {
-  double cosine, sine;
-};
-Turn turn_at(const Piece<double>& piece, double s);
-
 /// The frame turned; or the rates of one, the turn held.
 inline void turn_columns(const Turn& by, FrameColumns& at) {
   const Triple<double> x = by.cosine * at.x + by.sine * at.y;

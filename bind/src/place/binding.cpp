@@ -51,13 +51,13 @@ void project(const CurvePair& rest, Points points, int threads, BindingLayout& l
 void lay_out(std::span<const CurvePair> rest, Points points, const Branches& branches,
              BindingLayout& layout) {
   constexpr std::uint32_t kNone = 0xffffffff;
-  std::vector<std::uint32_t> kept(branches.nodes.size(), kNone);
+  std::vector<std::uint32_t> number(branches.nodes.size(), kNone);
   for (const auto& influences : branches.influences)
-    for (const Influence& one : influences) kept[one.node] = 0;
+    for (const Influence& one : influences) number[one.node] = 0;
   layout.rest_base = BindingLayout::base_of(rest);
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (kept[k] == kNone) continue;
-    kept[k] = static_cast<std::uint32_t>(layout.nodes.size());
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    if (number[k] == kNone) continue;
+    number[k] = static_cast<std::uint32_t>(layout.nodes.size());
     const Node& at = branches.nodes[k];
     layout.nodes.push_back(layout.make_node(at.pair, at.t, rest[at.pair]));
   }
@@ -71,7 +71,7 @@ void lay_out(std::span<const CurvePair> rest, Points points, const Branches& bra
     const Vec3 place = points[i] - layout.rest_base;
     layout.numbers.place.push_back({place.x(), place.y(), place.z()});
     for (const Influence& one : influences) {
-      layout.node.push_back(kept[one.node]);
+      layout.node.push_back(number[one.node]);
       layout.numbers.share.push_back(one.weight);
     }
   }

@@ -22,7 +22,7 @@ class Evaluator {
       : layout_(layout), numbers_(numbers), posed_(posed) {
     layout.require_same_knots(posed);
     base_ = BindingLayout::base_of(posed);
-    near_ = {static_cast<T>(base_.x()), static_cast<T>(base_.y()), static_cast<T>(base_.z())};
+    rounded_base_ = {static_cast<T>(base_.x()), static_cast<T>(base_.y()), static_cast<T>(base_.z())};
   }
 
   /// All points, in binding order.
@@ -46,8 +46,8 @@ class Evaluator {
   template <class MapOf>
   TENDRIL_INLINE Triple<T> blended(const BindingLayout::Blend& blend, const Triple<T>& nearest,
                                    const MapOf& map_of) const {
-    return near_ + mix(layout_.shares_of(numbers_, blend), map_of, layout_.place_of(numbers_, blend),
-                       nearest - near_);
+    return rounded_base_ + mix(layout_.shares_of(numbers_, blend), map_of, layout_.place_of(numbers_, blend),
+                               nearest - rounded_base_);
   }
   /// Of all nodes.
   std::vector<AffineMap<T>> maps(const Pieces& pieces) const;
@@ -77,8 +77,8 @@ class Evaluator {
   const BindingLayout& layout_;
   const Numbers& numbers_;
   std::span<const CurvePair> posed_;
-  Vec3 base_;       ///< of the pose
-  Triple<T> near_;  ///< the same in these numbers
+  Vec3 base_;               ///< of the pose
+  Triple<T> rounded_base_;  ///< the same in these numbers
 };
 
 template <class T>
@@ -179,13 +179,15 @@ template <class T>
 std::vector<AffineMap<T>> Evaluator<T>::maps(const Pieces& pieces) const {
   std::vector<AffineMap<T>> out;
   out.reserve(layout_.nodes.size());
-  auto exact = on_demand<double>(layout_.spans, posed_);
-  for (std::size_t k = 0; k < layout_.nodes.size(); ++k) {
-    const std::uint32_t span = layout_.nodes[k].span;
-    if constexpr (std::is_same_v<T, double>)
-      out.push_back(map(k, pieces[span]));
-    else
-      out.push_back(map(k, exact[span]));
+  const auto add_all = [&](auto& exact) {
+    for (std::size_t k = 0; k < layout_.nodes.size(); ++k)
+      out.push_back(map(k, exact[layout_.nodes[k].span]));
+  };
+  if constexpr (std::is_same_v<T, double>) {
+    add_all(pieces);
+  } else {
+    auto exact = on_demand<double>(layout_.spans, posed_);
+    add_all(exact);
   }
   return out;
 }

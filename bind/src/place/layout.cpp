@@ -70,8 +70,8 @@ std::uint32_t BindingLayout::span_of(std::uint32_t of_pair, double t) const {
 
 AxisNode BindingLayout::make_node(std::uint32_t of_pair, double t, const CurvePair& rest) const {
   const CurveFrame at = rest.frame(t);
-  AxisNode made{of_pair, span_of(of_pair, t), t, 0.0, at.origin - rest_base, Mat3()};
-  made.s = (t - spans[made.span].middle) / spans[made.span].length;
+  const std::uint32_t span = span_of(of_pair, t);
+  AxisNode made{of_pair, span, t, spans[span].local(t), at.origin - rest_base, Mat3()};
   made.frame << at.frame.x, at.frame.y, at.frame.z;
   return made;
 }
@@ -88,7 +88,7 @@ void BindingLayout::arrange(double negligible) {
     for (std::size_t i = run.begin; i < run.end; ++i) {
       const AxialPoint& at = entries[nearest.entry[i]];
       slot[nearest.entry[i]] = static_cast<std::uint32_t>(i);
-      records.s[i] = (at.t - spans[run.span].middle) / spans[run.span].length;
+      records.s[i] = spans[run.span].local(at.t);
       records.u[i] = at.u;
       records.v[i] = at.v;
       records.w[i] = run.off ? at.w : 0.0;

@@ -110,10 +110,8 @@ template <class T>
 RecordsView<T> turn_records(const Piece<T>& piece, const RecordsView<T>& records, std::size_t count, T* u,
                             T* v) {
   for (std::size_t i = 0; i < count; ++i) {
-    double angle = 0.0;
-    for (std::size_t j = kMostTerms; j-- > 0;)
-      angle = piece.turn[j] + static_cast<double>(records.s[i]) * angle;
-    const T c = static_cast<T>(std::cos(angle)), s = static_cast<T>(std::sin(angle));
+    const Turn turn = turn_at(piece, static_cast<double>(records.s[i]));
+    const T c = static_cast<T>(turn.cosine), s = static_cast<T>(turn.sine);
     u[i] = c * records.u[i] - s * records.v[i];
     v[i] = s * records.u[i] + c * records.v[i];
   }

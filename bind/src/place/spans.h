@@ -3,6 +3,7 @@
 #include <tendril/curve/curve_pair.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@ struct Span {
   /// Row j: the weights of the degree + 1 control points in the coefficient of s^j.
   std::array<std::array<double, kMostTerms>, kMostTerms> power;
 
+  double local(double t) const { return (t - middle) / length; }  ///< s
   std::size_t terms() const { return static_cast<std::size_t>(degree) + 1; }
   /// The control point that the others are taken relative to, so that coefficients far from the origin keep
   /// the digits of their differences.
@@ -47,6 +49,18 @@ struct Piece {
 
 template <class T>
 Piece<T> pose(const Span& span, const CurvePair& posed);
+
+/// By what a piece turns its frame at s.
+struct Turn {
+  double cosine, sine;
+};
+template <class T>
+Turn turn_at(const Piece<T>& piece, double s) {
+  if (!piece.turned) return {1.0, 0.0};
+  double angle = 0.0;
+  for (std::size_t j = kMostTerms; j-- > 0;) angle = piece.turn[j] + s * angle;
+  return {std::cos(angle), std::sin(angle)};
+}
 
 /// The records of a turned piece as they are in its frames before the turn: s and w as they were, u and v at
 /// the two places given. A point's are the same bits alone and among others.
