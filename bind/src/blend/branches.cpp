@@ -152,11 +152,9 @@ void BodyBranches::Data::know(const Vec3& p, const GridPlace& place, std::vector
 /// Factors are over that of the nearest.
 Site BodyBranches::Data::site(const Vec3& p, double scale, std::span<const Known> known,
                               std::span<const Candidate> all) {
-  Site out{p, std::max(kSmallest, scale), {}, {}, all};
-  for (const Known& one : known) {
-    out.factors.push_back(one.factor / out.nearest().factor);
-    out.least.push_back(one.distance.least);
-  }
+  Site out{p, std::max(kSmallest, scale), {}, all};
+  for (const Known& one : known)
+    out.curves.push_back({one.factor / out.nearest().factor, one.distance.least});
   return out;
 }
 
@@ -172,15 +170,15 @@ std::vector<Candidate> BodyBranches::Data::candidates(const Site& site) const {
   const double reach = axis.reach(site);
   std::vector<Candidate> out;
   for (std::uint32_t k = 0; k < projectors.size(); ++k) {
-    const double most = reach / site.factors[k];
-    if (site.least[k] > most) continue;
+    const double most = reach / site.curves[k].factor;
+    if (site.curves[k].least > most) continue;
     Projection first = nearest.at;
     if (k != nearest.pair) first = projectors[k].nearest(site.p);
     const double distance = first.distance;
     if (distance > most) continue;
     const double within = distance > 0.0 ? most / distance - 1.0 : std::numeric_limits<double>::infinity();
     for (const LocalMinimum& m : projectors[k].all(site.p, within, first.t))
-      if (!(m.distance > most)) out.push_back({k, m, nearest.factor * site.factors[k]});
+      if (!(m.distance > most)) out.push_back({k, m, nearest.factor * site.curves[k].factor});
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });

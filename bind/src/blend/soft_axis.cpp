@@ -142,7 +142,8 @@ std::vector<SoftAxis::Sample> SoftAxis::samples(const Site& site, std::uint32_t 
   for (const Candidate& c : site.all)
     if (c.pair == pair && c.open) minima.push_back(c.at.t);
   std::sort(minima.begin(), minima.end());
-  const double nearest = site.nearest().at.distance, factor2 = site.factors[pair] * site.factors[pair];
+  const double nearest = site.nearest().at.distance,
+               factor2 = site.curves[pair].factor * site.curves[pair].factor;
   const double room = this->room(site);
   const double start = curve.curve->knots().start(), end = curve.curve->knots().end();
   std::vector<Sample> out;

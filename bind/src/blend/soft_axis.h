@@ -8,9 +8,12 @@ namespace tendril::bind {
 /// A point p of the mesh, and what is known about it.
 struct Site {
   const Vec3& p;
-  double scale;                    ///< r of BindOptions::band: at least the distance to the nearest point
-  std::vector<double> factors;     ///< those of Facing at p, one for each curve, over that of the nearest
-  std::vector<double> least;       ///< lower bounds of the distances from p to each curve
+  double scale;  ///< r of BindOptions::band: at least the distance to the nearest point
+  /// What bears on each curve: the factor of Ways at p, over that of the nearest, and at least how far p is.
+  struct Curve {
+    double factor, least;
+  };
+  std::vector<Curve> curves;
   std::span<const Candidate> all;  ///< every projection that counts, or the nearest alone; the nearest first
   std::optional<double> flatness = {};  ///< once it is known
 

@@ -35,7 +35,7 @@ double SoftAxis::flatness(const Site& site, std::uint32_t pair, std::size_t firs
   }
   const bool turns = cosines[0] * cosines[1] <= 0.0;
   const double cosine = turns ? 0.0 : std::min(std::abs(cosines[0]), std::abs(cosines[1]));
-  const double excess = std::max(0.0, site.factors[pair] * away - site.nearest().at.distance);
+  const double excess = std::max(0.0, site.curves[pair].factor * away - site.nearest().at.distance);
   return excess / (band_ * site.scale) + (lambda + cosine) / band_;
 }
 
@@ -47,7 +47,7 @@ double SoftAxis::least_flatness(const Site& site, std::uint32_t pair, const Bloc
   const double along = std::abs(block.tangent.dot(way)) - (block.spread + kRoom) * length - block.radius;
   const double cosine = along > 0.0 ? along / most : 0.0,
                lambda = std::max(0.0, 1.0 - block.curvature * most);
-  const double away = site.factors[pair] * (length - block.radius - kRoom * length);
+  const double away = site.curves[pair].factor * (length - block.radius - kRoom * length);
   const double excess = std::max(0.0, away - site.nearest().at.distance);
   return (excess / (band_ * site.scale) + (lambda + cosine) / band_) * (1.0 - kRoom) - kRoom;
 }
@@ -58,7 +58,7 @@ double SoftAxis::flatness(Site& site) const {
   for (std::uint32_t pair = 0; pair < curves_.size(); ++pair) {
     if (!may_bear(site, pair)) continue;
     const std::vector<Vec3>& points = curves_[pair].points;
-    const double reach = (site.nearest().at.distance + band_ * site.scale) / site.factors[pair];
+    const double reach = (site.nearest().at.distance + band_ * site.scale) / site.curves[pair].factor;
     for (const Block& block : curves_[pair].blocks) {
       const double most = (reach + block.radius) * (1.0 + kRoom);
       if ((site.p - block.centre).squaredNorm() > most * most) continue;
@@ -82,7 +82,7 @@ double SoftAxis::cut_margin(Site& site) const {
   const double least_apart = kRounding * site.scale, least_apart2 = least_apart * least_apart;
   double margin = std::min(nearest.at.strength / band_, flatness(site));
   const auto consider = [&](std::uint32_t pair, double length, const Vec3& point) {
-    const double factor = site.factors[pair], apart2 = (point - nearest.at.point).squaredNorm();
+    const double factor = site.curves[pair].factor, apart2 = (point - nearest.at.point).squaredNorm();
     // Too near to the nearest point to differ from it: there the term tends to lambda, which is counted. Of a
     // mesh's point on the axis both are rounding.
     if (!(apart2 > std::max(1e-6 * distance2, least_apart2))) return;
@@ -96,7 +96,7 @@ double SoftAxis::cut_margin(Site& site) const {
     if (!may_bear(site, pair)) continue;
     for (const Block& block : curves_[pair].blocks) {
       const auto [away, apart] = bounds_of(block, site);
-      const double least = site.factors[pair] * std::max(0.0, away);
+      const double least = site.curves[pair].factor * std::max(0.0, away);
       const double branches_apart2 = apart * std::max(apart, 2.0 * site.scale);
       if ((least * least) * (1.0 - kRoom) - distance2 >= std::max(0.0, margin) * band_ * branches_apart2)
         continue;
@@ -133,8 +133,8 @@ bool SoftAxis::may_bear(const Site& site, std::uint32_t pair) const {
   const Candidate& nearest = site.nearest();
   if (pair == nearest.pair) return true;
   const double spacing = curves_[pair].spacing, d = nearest.at.distance * (1.0 + kRoom),
-               f = site.factors[pair];
-  const double a = (site.least[pair] - spacing) * (1.0 - kRoom), b = d + 2.0 * spacing;
+               f = site.curves[pair].factor;
+  const double a = (site.curves[pair].least - spacing) * (1.0 - kRoom), b = d + 2.0 * spacing;
   if (!(a > 0.0 && f * a >= d + band_ * site.scale * (1.0 + kRoom))) return true;
   const double band = band_ * (1.0 + kRoom), left = f * f * a * a - d * d;
   return !(left >= band * (a + b) * std::max(a + b, 2.0 * site.scale) && f * f * a >= band * (a + b) &&
@@ -147,7 +147,7 @@ bool SoftAxis::is_clear(const Site& site, std::uint32_t pair, const Block& block
   const double distance = (site.p - site.nearest().at.point).norm(), spacing = curves_[pair].spacing;
   const Bounds bounds = bounds_of(block, site);
   const double apart = bounds.apart + spacing;
-  const double away = std::max(distance, site.factors[pair] * (bounds.away - spacing) * (1.0 - kRoom));
+  const double away = std::max(distance, site.curves[pair].factor * (bounds.away - spacing) * (1.0 - kRoom));
   return (away - distance) * (away + distance) >=
          band_ * apart * std::max(apart, 2.0 * site.scale) * (1.0 + kRoom);
 }
@@ -164,7 +164,7 @@ bool SoftAxis::any_ambiguous(const Site& site, std::uint32_t pair, const Block& 
         pair == nearest.pair && std::abs(curve.lengths[k] - here) <= 2.0 * apart + 2.0 * curve.spacing;
     if (!own) {
       apart += curve.spacing;
-      away = std::max(distance, site.factors[pair] * (away - curve.spacing));
+      away = std::max(distance, site.curves[pair].factor * (away - curve.spacing));
     }
     const double branches = own ? 1.0 : std::max(1.0, 2.0 * site.scale / apart);
     if (own && !(apart > std::max(1e-3 * distance, kRounding * site.scale))) continue;
