@@ -103,7 +103,7 @@ Ratio true_square(const TrianglePair& p) {
   return e >= 0 ? square * Ratio(power) : square / Ratio(power);
 }
 
-/// The largest difference of coordinates.
+/// The largest difference of coordinates; 0 of pairs that are all one point.
 double size_of(const TrianglePair& p) {
   Vec3 low = p.a[0], high = p.a[0];
   for (const auto* t : {&p.a, &p.b})
@@ -122,7 +122,7 @@ bool bounds_hold(const TrianglePair& p, const Ratio& square) {
 constexpr double kOff = 1e-9;  ///< of the size: farther off is wrong
 
 void count_distance(double said, double truth, double size, Row& row) {
-  const double off = std::abs(said - truth) / size;
+  const double off = said == truth ? 0.0 : std::abs(said - truth) / size;
   if (!(off <= kOff)) {
     if (truth == 0.0)
       ++row.missed;

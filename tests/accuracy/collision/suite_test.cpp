@@ -83,6 +83,21 @@ TEST(CollisionSuite, TellsErrorsFromAnswersLeftOpen) {
   EXPECT_GT(open, 0);
 }
 
+/// By default among them are pairs that are all one point, without a size to be off by.
+TEST(CollisionSuite, HoldsDistancesToTheTruthByDefault) {
+  const Folder folder;
+  const Outcome outcome = folder.run("--only distance --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  int rows = 0;
+  const Json found = Json::parse(outcome.out);
+  for (const Json& row : found.at("rows")) {
+    if (row.at("library") != "tendril") continue;
+    ++rows;
+    EXPECT_EQ(row.at("false_negatives").get<long>() + row.at("false_positives").get<long>(), 0);
+  }
+  EXPECT_GT(rows, 5);
+}
+
 template <int Degree>
 void expect_truths(const std::string& path, collision::Features features) {
   int meet = 0;

@@ -49,7 +49,8 @@ struct FirstMeeting {
 /// its midst, the control points of the differences stay apart by more than the rounding error; a meeting
 /// in it is proven when det(d_1, d_2, d_3), a polynomial in Bernstein form, has one root there while the
 /// weights with which the features would meet, 2 x 2 minors of the d_i, keep their signs (intermediate value
-/// theorem). About 0.3 us for a query far from meeting. Queries of the public format: [Wang et al. 2021].
+/// theorem). Where that root is too flat for doubles to narrow, sums of two doubles do. About 0.2 us for a
+/// query far from meeting. Queries of the public format: [Wang et al. 2021].
 /// \param features  what the vertices are
 /// \param paths     of degree 1 or 3; not finite: `undecided` for that reason
 template <int Degree>

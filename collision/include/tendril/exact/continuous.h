@@ -14,11 +14,12 @@ namespace tendril::exact {
 ///
 /// The coordinates, each axis times a power of two of its own, are integers; the determinant of the three
 /// relative paths is a polynomial with integer Bernstein coefficients. Its roots in [0, 1] are isolated by
-/// Descartes' rule and halving [Collins and Akritas 1976], and at each in turn the signs of the weights,
-/// polynomials of degree 2 Degree, tell whether the features meet; where such a sign is zero, common divisors
-/// show it. Where the determinant is zero throughout, the roots of the weights take its place, and where
-/// those are, the roots of coordinates. The integers take about 10 us for a straight query, 30 us for a cubic
-/// one, and more with the square of the powers of two between the largest coordinate and the smallest.
+/// Descartes' rule and halving [Collins and Akritas 1976], where doubles do not prove the features apart, and
+/// at each in turn the signs of the weights, polynomials of degree 2 Degree, tell whether the features meet;
+/// where such a sign is zero, common divisors show it. Where the determinant is zero throughout, the roots of
+/// the weights take its place, and where those are, the roots of coordinates. The integers take about 5 us
+/// for a straight query, 10 us for a cubic one, and more with the square of the powers of two between the
+/// largest coordinate and the smallest.
 /// \param features  what the vertices are
 /// \param paths     of degree 1 or 3
 template <int Degree>

@@ -30,33 +30,57 @@ inline constexpr auto product_weights = make_product_weights<M, N>();
 /// The most coefficients that the functions below take.
 constexpr std::size_t most_coefficients = 10;
 
-/// Value at s.
-inline double value(std::span<const double> coefficients, double s) {
-  std::array<double, most_coefficients> c;
-  std::copy(coefficients.begin(), coefficients.end(), c.begin());
-  for (std::size_t level = coefficients.size() - 1; level > 0; --level)
-    for (std::size_t i = 0; i < level; ++i) c[i] += s * (c[i + 1] - c[i]);
-  return c[0];
+/// A polynomial for many values: coefficients times binomials, for Horner's rule in both s and 1 - s.
+class Weighted {
+ public:
+  explicit Weighted(std::span<const double> coefficients) : degree_(coefficients.size() - 1) {
+    double binomial = 1.0;
+    for (std::size_t i = 0; i <= degree_; ++i) {
+      c_[i] = binomial * coefficients[i];
+      binomial = binomial * static_cast<double>(degree_ - i) / static_cast<double>(i + 1);
+    }
+  }
+  double operator()(double s) const {
+    double sum = c_[0], power = 1.0;
+    for (std::size_t i = 1; i <= degree_; ++i) {
+      power *= s;
+      sum = sum * (1.0 - s) + power * c_[i];
+    }
+    return sum;
+  }
+
+ private:
+  std::size_t degree_;
+  std::array<double, most_coefficients> c_;
+};
+
+inline Weighted slope_of(std::span<const double> c) {
+  std::array<double, most_coefficients> slopes{};
+  const std::size_t degree = c.size() - 1;
+  for (std::size_t i = 0; i < degree; ++i) slopes[i] = static_cast<double>(degree) * (c[i + 1] - c[i]);
+  return Weighted({slopes.data(), degree});
 }
 
 /// A root of a polynomial with one root in [0, 1] and opposite signs at the ends, to about the rounding of
 /// its values: steps of Newton's method, halving where one leaves the bracket.
 inline double approximate_root(std::span<const double> c) {
-  std::array<double, most_coefficients> slopes;
-  const std::size_t degree = c.size() - 1;
-  for (std::size_t i = 0; i < degree; ++i) slopes[i] = static_cast<double>(degree) * (c[i + 1] - c[i]);
+  const Weighted value(c), slope = slope_of(c);
   double low = 0.0;
   double high = 1.0;
   double s = c.front() / (c.front() - c.back());
+  double last = 1.0;
   for (int step = 0; step < 60; ++step) {
-    const double f = value(c, s);
+    const double f = value(s);
     if (f == 0.0) return s;
     ((f < 0.0) == (c.front() < 0.0) ? low : high) = s;
-    double next = s - f / value({slopes.data(), degree}, s);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    double next = s - f / slope(s);
+    const bool halved = !(next > low && next < high);
+    if (halved) next = 0.5 * (low + high);
     const double moved = std::abs(next - s);
     s = next;
-    if (moved < 0x1p-50) break;
+    // Among roundings steps no longer shrink.
+    if (moved < 0x1p-50 || (!halved && moved < 0x1p-20 && moved > 0.5 * last)) break;
+    last = moved;
   }
   return s;
 }

@@ -44,19 +44,6 @@ void blend(const Nine& a, const Nine& b, double t, Nine& out) {
   for (int k = 0; k < 9; ++k) out[k] = s * a[k] + t * b[k];
 }
 
-/// The blossom of a cubic at (x, y, z): at (a, a, b) it is a time-control point of the piece on [a, b], made
-/// from the original ones, so that no error is handed down from piece to piece.
-Nine blossom(const std::array<Nine, 4>& c, double x, double y, double z) {
-  Nine a, b, d;
-  blend(c[0], c[1], x, a);
-  blend(c[1], c[2], x, b);
-  blend(c[2], c[3], x, d);
-  blend(a, b, y, a);
-  blend(b, d, y, b);
-  blend(a, b, z, a);
-  return a;
-}
-
 double minor(const Nine& a, int first, const Nine& b, int second, int x, int y) {
   return a[3 * first + x] * b[3 * second + y] - a[3 * first + y] * b[3 * second + x];
 }
@@ -76,8 +63,12 @@ std::array<double, 2 * Degree + 1> minor_of(const TimeInterval<Degree>& on, int 
 /// 1 or -1 where all coefficients have that sign for sure, else 0.
 template <std::size_t Count>
 int common_sign(const std::array<double, Count>& c, double error) {
-  const auto [least, most] = std::minmax_element(c.begin(), c.end());
-  return *least > error ? 1 : (*most < -error ? -1 : 0);
+  double least = c[0], most = c[0];
+  for (const double x : c) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return least > error ? 1 : (most < -error ? -1 : 0);
 }
 
 /// A minor is a projection along an axis: along the longest part of the normal the features are seen least
@@ -97,11 +88,11 @@ int normal_axis(Features features, const Nine& place) {
 template <int Degree>
 RelativePaths<Degree>::RelativePaths(const Paths<Degree>& paths) : finite_(all_finite<Degree>(paths)) {
   if (!finite_) return;
-  const double scale = scale_for(largest_coordinate<Degree>(paths));
+  scale_ = scale_for(largest_coordinate<Degree>(paths));
   for (int i = 0; i <= Degree; ++i)
     for (int which = 0; which < 3; ++which)
       for (int k = 0; k < 3; ++k) {
-        const double d = scale * paths[which + 1][i][k] - scale * paths[0][i][k];
+        const double d = scale_ * paths[which + 1][i][k] - scale_ * paths[0][i][k];
         control_[i][3 * which + k] = d;
         if (d != 0.0) size_of_(k, which) = std::max({size_of_(k, which), std::abs(d), 0x1p-300});
       }
@@ -120,10 +111,17 @@ template <int Degree>
 Instant RelativePaths<Degree>::at(double time) const {
   Instant at;
   at.time = time;
-  if constexpr (Degree == 1)
+  if constexpr (Degree == 1) {
     blend(control_[0], control_[1], time, at.place);
-  else
-    at.place = blossom(control_, time, time, time);
+  } else {
+    Nine a, b, c;
+    blend(control_[0], control_[1], time, a);
+    blend(control_[1], control_[2], time, b);
+    blend(control_[2], control_[3], time, c);
+    blend(a, b, time, at.row[0]);
+    blend(b, c, time, at.row[1]);
+    blend(at.row[0], at.row[1], time, at.place);
+  }
   at.side = side_at(at.place);
   return at;
 }
@@ -137,14 +135,16 @@ int RelativePaths<Degree>::side_at(const Nine& p) const {
   return value > error ? 1 : (value < -error ? -1 : 0);
 }
 
+/// The points between are the cubic's blossom at (from, from, to) and (to, to, from): made from the original
+/// ones, so that no error is handed down from piece to piece.
 template <int Degree>
 TimeInterval<Degree> RelativePaths<Degree>::interval(const Instant& from, const Instant& to) const {
   TimeInterval<Degree> on{from, to, {}};
   on.control.front() = from.place;
   on.control.back() = to.place;
   if constexpr (Degree == 3) {
-    on.control[1] = blossom(control_, from.time, from.time, to.time);
-    on.control[2] = blossom(control_, from.time, to.time, to.time);
+    blend(from.row[0], from.row[1], to.time, on.control[1]);
+    blend(to.row[0], to.row[1], from.time, on.control[2]);
   }
   return on;
 }
@@ -198,8 +198,13 @@ std::array<double, 3 * Degree + 1> RelativePaths<Degree>::determinant(const Time
 }
 
 template <int Degree>
+double RelativePaths<Degree>::coefficient_error() const {
+  return relative(3 * roundings<Degree> + 18) * permanent_;
+}
+
+template <int Degree>
 bool RelativePaths<Degree>::has_one_root(const std::array<double, 3 * Degree + 1>& c) const {
-  const double error = relative(3 * roundings<Degree> + 18) * permanent_;
+  const double error = coefficient_error();
   const double sign = c.front() > 0.0 ? 1.0 : -1.0;
   // Sure signs from either end; what is left between them may be of either sign, or zero.
   std::size_t before = 0;

@@ -33,7 +33,6 @@ class RelativePaths {
   bool in_range() const { return size_along_.maxCoeff() > 0x1p-250 && size_along_.maxCoeff() < 0x1p201; }
 
   Instant at(double time) const;
-  TimeInterval<Degree> interval(double from, double to) const { return interval(at(from), at(to)); }
   TimeInterval<Degree> interval(const Instant& from, const Instant& to) const;
 
   /// True only if the features are apart along n at every time of the interval: n . (d_i - d_j), d_j zero or
@@ -62,6 +61,12 @@ class RelativePaths {
   /// they do with at most one of unknown sign between the sure ones.
   bool has_one_root(const std::array<double, 3 * Degree + 1>& coefficients) const;
 
+  /// What coordinates are multiplied by, a power of two.
+  double scale() const { return scale_; }
+  double permanent() const { return permanent_; }
+  /// Of determinant().
+  double coefficient_error() const;
+
  private:
   int side_at(const Nine& place) const;
   double minor_size(int first, int second, int x, int y) const;
@@ -69,7 +74,8 @@ class RelativePaths {
   std::array<Nine, Degree + 1> control_;
   Mat3 size_of_ = Mat3::Zero();     ///< M_ik, a column a vector
   Vec3 size_along_ = Vec3::Zero();  ///< the largest M_ik of each coordinate
-  double permanent_ = 0.0;          ///< of M
+  double scale_ = 1.0;
+  double permanent_ = 0.0;  ///< of M
   bool finite_ = true;
 };
 

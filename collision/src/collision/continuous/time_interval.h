@@ -19,13 +19,14 @@ struct Instant {
   double time;
   Nine place;
   int side;
+  std::array<Nine, 2> row;  ///< of a cubic: the one before the place in de Casteljau's scheme
 };
 
 /// The relative paths on a part of the time: control[i] are the time-control points there, the first and last
-/// of them the places at its ends.
+/// of them the places at its ends. Refers to these.
 template <int Degree>
 struct TimeInterval {
-  Instant from, to;
+  const Instant &from, &to;
   std::array<Nine, Degree + 1> control;
 };
 

@@ -5,7 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "polynomial.h"
+#include "collision/continuous/closest_direction.h"
+#include "collision/continuous/relative_paths.h"
+#include "integer_paths.h"
 #include "roots.h"
 
 namespace tendril::exact {
@@ -20,70 +22,6 @@ using collision::Reason;
 /// What the answer's bracket may be wide.
 constexpr double widest = 0x1p-40;
 
-/// x = mantissa 2^exponent with an odd mantissa, or 0.
-struct Parts {
-  std::int64_t mantissa = 0;
-  int exponent = 0;
-};
-
-Parts parts(double x) {
-  if (x == 0.0) return {};
-  int exponent = 0;
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
-  exponent -= 53;
-  while (mantissa % 2 == 0) {
-    mantissa /= 2;
-    ++exponent;
-  }
-  return {mantissa, exponent};
-}
-
-/// The paths of the other three vertices relative to the first: d[i][axis]. Each axis is scaled by a power of
-/// two of its own, which changes no answer.
-template <int Degree>
-class IntegerPaths {
- public:
-  explicit IntegerPaths(const Paths<Degree>& paths) {
-    for (int axis = 0; axis < 3; ++axis) set_axis(paths, axis);
-  }
-
-  const Polynomial& at(int which, int axis) const { return d_[which][axis]; }
-
-  /// d_first x d_second along an axis.
-  Polynomial cross(int first, int second, int axis) const {
-    const int x = (axis + 1) % 3;
-    const int y = (axis + 2) % 3;
-    return at(first, x) * at(second, y) - at(first, y) * at(second, x);
-  }
-
-  Polynomial determinant() const {
-    return at(0, 0) * cross(1, 2, 0) + at(0, 1) * cross(1, 2, 1) + at(0, 2) * cross(1, 2, 2);
-  }
-
- private:
-  void set_axis(const Paths<Degree>& paths, int axis) {
-    std::array<std::array<Parts, Degree + 1>, 4> p;
-    int least = std::numeric_limits<int>::max();
-    for (int vertex = 0; vertex < 4; ++vertex)
-      for (int i = 0; i <= Degree; ++i) {
-        p[vertex][i] = parts(paths[vertex][i][axis]);
-        if (p[vertex][i].mantissa != 0) least = std::min(least, p[vertex][i].exponent);
-      }
-    const auto integer = [&](const Parts& part) {
-      return part.mantissa == 0 ? Integer(0)
-                                : Integer(part.mantissa) << static_cast<unsigned>(part.exponent - least);
-    };
-    constexpr int cubic[4] = {1, 3, 3, 1};
-    for (int which = 0; which < 3; ++which) {
-      d_[which][axis].degree = Degree;
-      for (int i = 0; i <= Degree; ++i)
-        d_[which][axis].c[i] = (integer(p[which + 1][i]) - integer(p[0][i])) * (Degree == 3 ? cubic[i] : 1);
-    }
-  }
-
-  std::array<std::array<Polynomial, 3>, 3> d_;
-};
-
 /// Whether features that lie in one plane with the first vertex meet, by signs of polynomials.
 template <int Degree>
 class Coplanar {
@@ -95,12 +33,12 @@ class Coplanar {
   /// weights are then the only relation between the d_i up to a factor. Edges: the pairs sum to the cross
   /// product of the edges, so one sign makes that not zero; of opposite signs, either it is not zero and the
   /// lines cross outside an edge, or the edges are on two parallel lines.
-  std::vector<Polynomial> weights(int axis) const {
-    const Polynomial w1 = d_.cross(1, 2, axis);
-    const Polynomial w2 = d_.cross(2, 0, axis);
-    const Polynomial w3 = d_.cross(0, 1, axis);
-    if (features_ == Features::vertex_face) return {w1, w2, w3};
-    return {w1, -w2, -w3, -(w1 + w2 + w3)};
+  const std::vector<Polynomial>& weights(int axis) const {
+    std::vector<Polynomial>& w = weights_[axis];
+    if (!w.empty()) return w;
+    w = {d_.cross(1, 2, axis), d_.cross(2, 0, axis), d_.cross(0, 1, axis)};
+    if (features_ == Features::edge_edge) w = {w[0], -w[1], -w[2], -(w[0] + w[1] + w[2])};
+    return w;
   }
 
   /// Of features on one line: they are apart exactly if along an axis all of these have one sign, not zero.
@@ -111,6 +49,8 @@ class Coplanar {
     if (features_ == Features::vertex_face) return {d1, d2, d3};
     return {d2, d3, d2 - d1, d3 - d1};
   }
+
+  Features features() const { return features_; }
 
   bool meet(const Root& time) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -139,6 +79,7 @@ class Coplanar {
 
   Features features_;
   const IntegerPaths<Degree>& d_;
+  mutable std::array<std::vector<Polynomial>, 3> weights_;  ///< by axis, once they are asked for
 };
 
 double round_down(const Dyadic& t) {
@@ -156,13 +97,65 @@ FirstMeeting hit_at(const Root& root) {
   return {Meeting::hit, Reason::none, round_down(root.low), round_up(root.high)};
 }
 
+/// What doubles prove of an interval, see RelativePaths.
+template <int Degree>
+class InDoubles {
+ public:
+  InDoubles(Features features, const Paths<Degree>& paths)
+      : features_(features), paths_(paths), usable_(paths_.finite() && paths_.in_range()) {}
+
+  bool apart(double from, double to) const {
+    return prove(
+        from, to, [this](const collision::TimeInterval<Degree>& on, const collision::Instant& middle) {
+          return features_ == Features::vertex_face
+                     ? paths_.template apart<Features::vertex_face>(on,
+                                                                    collision::vertex_face_direction(middle))
+                     : paths_.template apart<Features::edge_edge>(on, collision::edge_edge_direction(middle));
+        });
+  }
+  /// At every time at which the features are in one plane.
+  bool meet(double from, double to) const {
+    return prove(from, to,
+                 [this](const collision::TimeInterval<Degree>& on, const collision::Instant& middle) {
+                   return paths_.weights_keep_sign(features_, on, middle);
+                 });
+  }
+
+ private:
+  template <class Proof>
+  bool prove(double from, double to, const Proof& proof) const {
+    if (!usable_) return false;
+    const collision::Instant first = paths_.at(from), last = paths_.at(to);
+    return proof(paths_.interval(first, last), paths_.at(0.5 * (from + to)));
+  }
+
+  Features features_;
+  collision::RelativePaths<Degree> paths_;
+  bool usable_;
+};
+
 template <int Degree>
 class Search {
  public:
-  Search(Features features, const Paths<Degree>& paths, double free_until)
-      : d_(paths), coplanar_(features, d_), free_until_(free_until) {}
+  /// \param in_doubles  null: integers alone
+  Search(Features features, const Paths<Degree>& paths, double free_until,
+         const InDoubles<Degree>* in_doubles)
+      : d_(paths), coplanar_(features, d_), free_until_(free_until) {
+    wanted_.none = [=, this](double from, double to) {
+      return to < free_until || from > first_.to || (in_doubles && in_doubles->apart(from, to));
+    };
+    wanted_.it = [=, this](const Root& at) {
+      if (in_doubles) {
+        const double from = round_down(at.low), to = round_up(at.high);
+        if (in_doubles->apart(from, to)) return false;
+        if (in_doubles->meet(from, to)) return true;
+      }
+      return coplanar_.meet(at);
+    };
+  }
 
   FirstMeeting run() {
+    if (meet_at_the_beginning()) return {Meeting::hit, Reason::none, 0.0, 0.0};
     const Polynomial determinant = d_.determinant();
     if (is_zero(determinant))
       in_one_plane();
@@ -174,10 +167,15 @@ class Search {
  private:
   void take_roots(const Polynomial& p) {
     Root root;
-    if (is_zero(p) || !find_root(
-                          p, free_until_, [&](const Root& at) { return coplanar_.meet(at); }, root))
-      return;
-    keep_first(hit_at(root));
+    if (!is_zero(p) && find_root(p, wanted_, root)) keep_first(hit_at(root));
+  }
+
+  bool meet_at_the_beginning() const {
+    if (free_until_ > 0.0) return false;
+    const IntegerPaths<Degree> there = d_.beginning();
+    const Polynomial time{1, {0, 1}};
+    return is_zero(there.determinant()) &&
+           Coplanar<Degree>(coplanar_.features(), there).meet({&time, {0, 0}, {0, 0}});
   }
 
   /// The first of two brackets, or what holds the first of two times where the brackets overlap.
@@ -191,25 +189,31 @@ class Search {
   /// The features lie in one plane at all times. Whether they meet changes only at the roots of the
   /// polynomials whose signs decide it, and to meet is closed, so it begins at 0 or at one of them.
   void in_one_plane() {
-    Polynomial beginning{1, {}};
-    beginning.c[1] = 1;
-    take_roots(beginning);
-    if (first_.meeting == Meeting::hit) return;
     for (int axis = 0; axis < 3; ++axis)
       if (take_all(coplanar_.weights(axis))) return;
     for (int axis = 0; axis < 3; ++axis) take_all(coplanar_.differences(axis));
   }
 
+  /// Those that differ by a constant have the same roots: of features on one line all axes' do.
   /// \return  whether any is not zero throughout
   bool take_all(const std::vector<Polynomial>& polynomials) {
-    for (const Polynomial& p : polynomials) take_roots(p);
-    return std::any_of(polynomials.begin(), polynomials.end(),
-                       [](const Polynomial& p) { return !is_zero(p); });
+    bool any = false;
+    for (const Polynomial& p : polynomials) {
+      if (is_zero(p)) continue;
+      any = true;
+      if (std::any_of(taken_.begin(), taken_.end(), [&](const Polynomial& q) { return proportional(p, q); }))
+        continue;
+      taken_.push_back(p);
+      take_roots(p);
+    }
+    return any;
   }
 
+  std::vector<Polynomial> taken_;
   IntegerPaths<Degree> d_;
   Coplanar<Degree> coplanar_;
   double free_until_;
+  Wanted wanted_;
   FirstMeeting first_{Meeting::free, Reason::none, 1.0, 1.0};
 };
 
@@ -223,7 +227,7 @@ bool finite(const Paths<Degree>& paths) {
 template <int Degree>
 FirstMeeting first_meeting_in_integers(Features features, const Paths<Degree>& paths) {
   if (!finite<Degree>(paths)) return {Meeting::undecided, Reason::not_finite, 0.0, 1.0};
-  return Search<Degree>(features, paths, 0.0).run();
+  return Search<Degree>(features, paths, 0.0, nullptr).run();
 }
 
 template <int Degree>
@@ -231,7 +235,8 @@ FirstMeeting first_meeting(Features features, const Paths<Degree>& paths) {
   const FirstMeeting in_doubles = collision::first_meeting<Degree>(features, paths);
   if (in_doubles.reason == Reason::not_finite || in_doubles.meeting == Meeting::free) return in_doubles;
   if (in_doubles.meeting == Meeting::hit && in_doubles.to - in_doubles.from <= widest) return in_doubles;
-  return Search<Degree>(features, paths, in_doubles.from).run();
+  const InDoubles<Degree> proofs(features, paths);
+  return Search<Degree>(features, paths, in_doubles.from, &proofs).run();
 }
 
 template FirstMeeting first_meeting<1>(Features, const Paths<1>&);

@@ -34,8 +34,8 @@ constexpr std::uint64_t prime = (std::uint64_t{1} << 61) - 1;
 using Residues = std::vector<std::uint64_t>;
 
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
-  __extension__ using Wide = unsigned __int128;
-  return static_cast<std::uint64_t>(static_cast<Wide>(a) * b % prime);
+  __extension__ using Unsigned = unsigned __int128;
+  return static_cast<std::uint64_t>(static_cast<Unsigned>(a) * b % prime);
 }
 
 std::uint64_t inverse(std::uint64_t a) {
@@ -126,7 +126,19 @@ Polynomial operator*(const Polynomial& p, const Polynomial& q) {
   return product;
 }
 
+bool proportional(const Polynomial& p, const Polynomial& q) {
+  if (p.degree != q.degree) return false;
+  int k = 0;
+  while (k < p.degree && p.c[k] == 0) ++k;
+  const bool same = p.c[k] == q.c[k];
+  for (int i = 0; i <= p.degree; ++i)
+    if (same ? p.c[i] != q.c[i] : (p.c[i] == 0) != (q.c[i] == 0) || p.c[i] * q.c[k] != q.c[i] * p.c[k])
+      return false;
+  return true;
+}
+
 int sign_at(const Polynomial& p, const Dyadic& t) {
+  if (t.exponent == 0) return (t.numerator == 0 ? p.c[0] : p.c[p.degree]).sign();
   const Integer rest = (Integer(1) << t.exponent) - t.numerator;
   Integer value = p.c[p.degree];
   Integer power = 1;

@@ -5,9 +5,9 @@
 
 namespace tendril::exact {
 
-/// Integers of any size; up to 1024 bits without the heap.
+/// Integers of any size; up to 512 bits without the heap.
 using Integer = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<1024, 0, boost::multiprecision::signed_magnitude,
+    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,
                                            std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
@@ -27,6 +27,7 @@ struct Polynomial {
 };
 
 bool is_zero(const Polynomial& p);
+bool proportional(const Polynomial& p, const Polynomial& q);  ///< whether one is the other times a constant
 Polynomial operator+(const Polynomial& p, const Polynomial& q);  ///< of one degree
 Polynomial operator-(const Polynomial& p, const Polynomial& q);  ///< of one degree
 Polynomial operator-(const Polynomial& p);

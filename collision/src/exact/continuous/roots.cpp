@@ -125,12 +125,10 @@ class Narrowing {
 
 class Isolation {
  public:
-  Isolation(const Polynomial& p, double free_until, const std::function<bool(const Root&)>& meets)
-      : p_(p), free_until_(free_until), meets_(meets) {}
+  Isolation(const Polynomial& p, const Wanted& wanted) : p_(p), wanted_(wanted) {}
 
   bool run() {
     const bool ends_in_root = p_.c[p_.degree] == 0;
-    if (p_.c[0] == 0 && accept({&p_, {0, 0}, {0, 0}})) return true;
     bool found = search({p_, {0, 0}});
     if (has_multiple_roots_) {
       make_square_free();
@@ -143,7 +141,7 @@ class Isolation {
 
  private:
   bool accept(const Root& root) {
-    if (!meets_(root)) return false;
+    if (!wanted_.it(root)) return false;
     first = root;
     return true;
   }
@@ -174,7 +172,7 @@ class Isolation {
   /// True when the root wanted is the only one of the part; what else there is to be searched is put aside.
   bool look_at(const Part& part, std::vector<Pending>& pending) {
     const int changes = sign_changes(part.p);
-    if (changes == 0 || ends_early(part)) return false;
+    if (changes == 0 || none_is_wanted(part)) return false;
     if (changes == 1) {
       Narrowing narrowing({&p_, part.low, part.high()}, part.p);
       if (!narrowing.is_narrow()) narrowing.sharpen(part.p);
@@ -214,15 +212,18 @@ class Isolation {
     has_multiple_roots_ = false;
   }
 
-  bool ends_early(const Part& part) const {
-    const Dyadic high = part.high();
-    return part.low.exponent < 60 &&
-           std::ldexp(static_cast<double>(high.numerator), -static_cast<int>(high.exponent)) < free_until_;
+  /// Ends beyond doubles are not asked about.
+  bool none_is_wanted(const Part& part) const {
+    if (part.low.exponent > 50) return false;
+    const auto at = [&](const Dyadic& t) {
+      return std::ldexp(static_cast<double>(static_cast<std::int64_t>(t.numerator)),
+                        -static_cast<int>(t.exponent));
+    };
+    return wanted_.none(at(part.low), at(part.high()));
   }
 
   Polynomial p_;
-  double free_until_;
-  const std::function<bool(const Root&)>& meets_;
+  const Wanted& wanted_;
   bool asked_ = false;
   bool has_multiple_roots_ = false;
 };
@@ -242,6 +243,7 @@ int sign_in_doubles(const Polynomial& q, const Root& root) {
 
 /// For a root in an open interval.
 bool is_root_of(const Polynomial& q, const Root& root) {
+  if (proportional(q, *root.p)) return true;
   const Polynomial p = without_ends(*root.p);
   const Polynomial inner = without_ends(q);
   if (inner.degree == 0 || surely_coprime(p, inner)) return false;
@@ -251,9 +253,8 @@ bool is_root_of(const Polynomial& q, const Root& root) {
 
 }  // namespace
 
-bool find_root(const Polynomial& p, double free_until, const std::function<bool(const Root&)>& meets,
-               Root& first) {
-  Isolation isolation(p, free_until, meets);
+bool find_root(const Polynomial& p, const Wanted& wanted, Root& first) {
+  Isolation isolation(p, wanted);
   if (!isolation.run()) return false;
   first = isolation.first;
   return true;
@@ -264,9 +265,8 @@ int sign_at(const Polynomial& q, Root root) {
   if (root.is_dyadic()) return sign_at(q, root.low);
   const int in_double = sign_in_doubles(q, root);
   if (in_double != 2) return in_double;
-  Polynomial there = on_bracket(q, root);
-  if (sign_changes(there) == 0) return first_sign(there);
   if (is_root_of(q, root)) return 0;
+  Polynomial there = on_bracket(q, root);
   while (sign_changes(there) != 0) {
     const Polynomial p = on_bracket(*root.p, root);
     Narrowing narrowing(root, p);

@@ -15,11 +15,18 @@ struct Root {
   bool is_dyadic() const { return low.exponent == high.exponent && low.numerator == high.numerator; }
 };
 
-/// The roots of p, not zero, in [0, 1] in ascending order, each in a bracket of at most 2^-42, to `meets`
-/// until it says true.
-/// \return  whether it did; `first` is then that root. `free_until`: no root before it is wanted.
-bool find_root(const Polynomial& p, double free_until, const std::function<bool(const Root&)>& meets,
-               Root& first);
+/// Which roots are wanted.
+struct Wanted {
+  /// Whether none between two times is.
+  std::function<bool(double, double)> none;
+  /// Whether this one is.
+  std::function<bool(const Root&)> it;
+};
+
+/// The roots of p, not zero, behind 0 and up to 1 in ascending order, each in a bracket of at most 2^-42, until one is
+/// wanted.
+/// \return  whether one was; `first` is then that root.
+bool find_root(const Polynomial& p, const Wanted& wanted, Root& first);
 
 /// Sign of q at the root. Doubles first, then the integers on the bracket, then common divisors.
 int sign_at(const Polynomial& q, Root root);
