@@ -43,8 +43,8 @@ Polynomial polynomial(const std::array<Wide, N>& c) {
 }
 
 /// The paths of the other three vertices relative to the first: d[i][axis]. Each axis is scaled by a power of
-/// two of its own, which changes no answer. Most queries that doubles leave open are of numbers with few bits:
-/// their products fit machine integers.
+/// two of its own, which changes no answer. Most queries that doubles leave open are of numbers with few
+/// bits: their products fit machine integers.
 template <int Degree>
 class IntegerPaths {
  public:

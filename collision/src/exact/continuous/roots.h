@@ -23,8 +23,8 @@ struct Wanted {
   std::function<bool(const Root&)> it;
 };
 
-/// The roots of p, not zero, behind 0 and up to 1 in ascending order, each in a bracket of at most 2^-42, until one is
-/// wanted.
+/// The roots of p, not zero, behind 0 and up to 1 in ascending order, each in a bracket of at most 2^-42,
+/// until one is wanted.
 /// \return  whether one was; `first` is then that root.
 bool find_root(const Polynomial& p, const Wanted& wanted, Root& first);
 
