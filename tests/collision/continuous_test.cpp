@@ -111,6 +111,18 @@ TEST(Continuous, FollowsMotionWithinOnePlane) {
   expect_free(Features::edge_edge, rod);
 }
 
+/// At a third, no double: the weight of a corner there is next to nothing, but not nothing.
+TEST(Continuous, TellsAHairFromATouchBetweenDoubles) {
+  for (const double hair : {1e-18, 1e-100, 1e-300}) {
+    expect_free(Features::vertex_face, falling(Vec3(-hair, 1, -2)));
+    expect_hit(Features::vertex_face, falling(Vec3(hair, 1, -2)), 1.0 / 3);
+    expect_free(Features::edge_edge, falling_edge(4 + 0x1p-50, -hair, -2));
+    expect_free(Features::edge_edge, falling_edge(1, hair, -2));
+  }
+  expect_hit(Features::vertex_face, falling(Vec3(0, 1, -2)), 1.0 / 3);
+  expect_hit(Features::edge_edge, falling_edge(1, 0, -2), 1.0 / 3);
+}
+
 TEST(Continuous, TakesFeaturesWithoutArea) {
   Paths<1> paths = still(Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0));
   paths[0][0] = Vec3(1, 0, 1);
