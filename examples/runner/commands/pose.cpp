@@ -169,10 +169,10 @@ Command pose_command(CLI::App& parent) {
       ->required();
   app->add_option("--bend", options->bends,
                   "NAME:DEGREES, of one curve DEGREES, evenly along the curve, towards its orientation side; "
-                  "its start, and the way it "
-                  "sets out, stay; several add up")
+                  "its start, and the way it sets out, stay; one --bend for each curve, those of one add up")
       ->allow_extra_args(false);
-  app->add_option("--twist", options->twists, "NAME:DEGREES at its end, evenly from none at its start")
+  app->add_option("--twist", options->twists,
+                  "NAME:DEGREES at its end, evenly from none at its start; one --twist for each curve")
       ->allow_extra_args(false);
   app->add_option("--out", options->out, "curve file (JSON) to write")->required();
   return {app, [options] { return run_pose(*options); }};
