@@ -101,6 +101,7 @@ class IntegerPaths {
         least = std::min(least, p[vertex][i].exponent);
         most = std::max(most, std::ilogb(x));
       }
+    if (least > most) least = most = 0;  // all are zero
     // Six times the largest is below 2^63.
     if (most < least + 59)
       for (int which = 0; which < 3; ++which) {
