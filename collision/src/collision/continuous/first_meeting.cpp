@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "closest_direction.h"
 #include "relative_paths.h"
 #include "sharp_determinant.h"
 #include "time_interval.h"
@@ -35,7 +34,7 @@ class Search {
     for (int looked = 0; looked < most_intervals; ++looked) {
       const TimeInterval<Degree> now = paths_.interval(from, waiting[count - 1]);
       const Instant at = paths_.at(now.from.time + cut * (now.to.time - now.from.time));
-      if (apart(now, at)) {
+      if (paths_.apart(features_, now, at)) {
         if (--count == 0) return {Meeting::free, Reason::none, 1.0, 1.0};
         from = waiting[count];
         continue;
@@ -49,12 +48,6 @@ class Search {
   }
 
  private:
-  bool apart(const TimeInterval<Degree>& now, const Instant& at) const {
-    return features_ == Features::vertex_face
-               ? paths_.template apart<Features::vertex_face>(now, vertex_face_direction(at))
-               : paths_.template apart<Features::edge_edge>(now, edge_edge_direction(at));
-  }
-
   /// Features in one plane at an end and still not apart shortly beside it very likely are: then more
   /// intervals would not tell either.
   static bool is_a_touch(const TimeInterval<Degree>& now) {

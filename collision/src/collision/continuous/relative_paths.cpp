@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "closest_direction.h"
+
 namespace tendril::collision {
 namespace {
 
@@ -151,7 +153,7 @@ TimeInterval<Degree> RelativePaths<Degree>::interval(const Instant& from, const 
 
 template <int Degree>
 template <Features features>
-bool RelativePaths<Degree>::apart(const TimeInterval<Degree>& on, const Vec3& n) const {
+bool RelativePaths<Degree>::apart_along(const TimeInterval<Degree>& on, const Vec3& n) const {
   const double size = n.cwiseAbs().dot(size_along_);
   if (!(size > 0x1p-900)) return false;
   const double error = 2 * relative(roundings<Degree> + 4) * size;
@@ -163,6 +165,14 @@ bool RelativePaths<Degree>::apart(const TimeInterval<Degree>& on, const Vec3& n)
         least, features == Features::vertex_face ? std::min(first, others) : others - std::max(first, 0.0));
   }
   return least > error;
+}
+
+template <int Degree>
+bool RelativePaths<Degree>::apart(Features features, const TimeInterval<Degree>& on,
+                                  const Instant& middle) const {
+  return features == Features::vertex_face
+             ? apart_along<Features::vertex_face>(on, vertex_face_direction(middle))
+             : apart_along<Features::edge_edge>(on, edge_edge_direction(middle));
 }
 
 template <int Degree>
@@ -216,9 +226,5 @@ bool RelativePaths<Degree>::has_one_root(const std::array<double, 3 * Degree + 1
 
 template class RelativePaths<1>;
 template class RelativePaths<3>;
-template bool RelativePaths<1>::apart<Features::vertex_face>(const TimeInterval<1>&, const Vec3&) const;
-template bool RelativePaths<1>::apart<Features::edge_edge>(const TimeInterval<1>&, const Vec3&) const;
-template bool RelativePaths<3>::apart<Features::vertex_face>(const TimeInterval<3>&, const Vec3&) const;
-template bool RelativePaths<3>::apart<Features::edge_edge>(const TimeInterval<3>&, const Vec3&) const;
 
 }  // namespace tendril::collision

@@ -35,11 +35,11 @@ class RelativePaths {
   Instant at(double time) const;
   TimeInterval<Degree> interval(const Instant& from, const Instant& to) const;
 
-  /// True only if the features are apart along n at every time of the interval: n . (d_i - d_j), d_j zero or
-  /// not, has no Bernstein coefficient that may be zero. Error: three terms a vector of one such number, n
-  /// exact, a product and three sums: at most 2 g(P + 4) sum_k |n_k| max_i M_ik.
-  template <Features features>
-  bool apart(const TimeInterval<Degree>& on, const Vec3& n) const;
+  /// True only if the features are apart at every time of the interval, along the direction n of their
+  /// closest points in its midst: n . (d_i - d_j), d_j zero or not, has no Bernstein coefficient that may be
+  /// zero. Error: three terms a vector of one such number, n exact, a product and three sums: at most
+  /// 2 g(P + 4) sum_k |n_k| max_i M_ik.
+  bool apart(Features features, const TimeInterval<Degree>& on, const Instant& middle) const;
 
   /// True only if at every time of the interval at which det(d_1, d_2, d_3) = 0 the features meet.
   /// Proof. For every vector m, sum w_i d_i = det(d_1, d_2, d_3) m with w_1 = m . d_2 x d_3 and so on. Take m
@@ -68,6 +68,8 @@ class RelativePaths {
   double coefficient_error() const;
 
  private:
+  template <Features features>
+  bool apart_along(const TimeInterval<Degree>& on, const Vec3& n) const;
   int side_at(const Nine& place) const;
   double minor_size(int first, int second, int x, int y) const;
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "collision/continuous/closest_direction.h"
 #include "collision/continuous/relative_paths.h"
 #include "integer_paths.h"
 #include "roots.h"
@@ -104,33 +103,21 @@ class InDoubles {
   InDoubles(Features features, const Paths<Degree>& paths)
       : features_(features), paths_(paths), usable_(paths_.finite() && paths_.in_range()) {}
 
-  bool apart(double from, double to) const {
-    return prove(
-        from, to, [this](const collision::TimeInterval<Degree>& on, const collision::Instant& middle) {
-          return features_ == Features::vertex_face
-                     ? paths_.template apart<Features::vertex_face>(on,
-                                                                    collision::vertex_face_direction(middle))
-                     : paths_.template apart<Features::edge_edge>(on, collision::edge_edge_direction(middle));
-        });
-  }
+  bool apart(double from, double to) const { return prove(from, to, &Relative::apart); }
   /// At every time at which the features are in one plane.
-  bool meet(double from, double to) const {
-    return prove(from, to,
-                 [this](const collision::TimeInterval<Degree>& on, const collision::Instant& middle) {
-                   return paths_.weights_keep_sign(features_, on, middle);
-                 });
-  }
+  bool meet(double from, double to) const { return prove(from, to, &Relative::weights_keep_sign); }
 
  private:
+  using Relative = collision::RelativePaths<Degree>;
   template <class Proof>
   bool prove(double from, double to, const Proof& proof) const {
     if (!usable_) return false;
     const collision::Instant first = paths_.at(from), last = paths_.at(to);
-    return proof(paths_.interval(first, last), paths_.at(0.5 * (from + to)));
+    return (paths_.*proof)(features_, paths_.interval(first, last), paths_.at(0.5 * (from + to)));
   }
 
   Features features_;
-  collision::RelativePaths<Degree> paths_;
+  Relative paths_;
   bool usable_;
 };
 
