@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -121,19 +122,21 @@ struct TearJudge::Data {
       : options(asked),
         threads(bind.threads),
         diagonal(bounding_diagonal(mesh.points)),
-        rest(curves.begin(), curves.end()),
-        meshes(std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
-                          [&] { return levels_of(mesh, asked); })),
-        binder(rest, mesh, bind),
-        own(binder.bind(mesh.points, {})) {
+        rest(curves.begin(), curves.end()) {
+    // Beside the binder: each takes about as long.
+    std::future<std::vector<TriangleMesh>> meshes =
+        std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
+                   [&] { return levels_of(mesh, asked); });
+    binder.emplace(rest, mesh, bind);
+    own.emplace(binder->bind(mesh.points, {}));
     std::vector<TriangleMesh> made = meshes.get();
     const bool split = made[0].mesh.points.size() > mesh.points.size();
-    Binding first = split ? binder.bind(made[0].mesh.points, own_faces(mesh, made[0])) : own;
+    Binding first = split ? binder->bind(made[0].mesh.points, own_faces(mesh, made[0])) : *own;
     add(std::move(made[0]), std::move(first));
     for (std::size_t k = 1; k < made.size(); ++k) {
       const TriangleMesh& before = levels.back().triangles;
       const Points middles = Points(made[k].mesh.points).subspan(before.mesh.points.size());
-      Binding added = binder.bind(middles, before.faces_of_edges());
+      Binding added = binder->bind(middles, before.faces_of_edges());
       add(std::move(made[k]), std::move(added));
     }
   }
@@ -151,9 +154,8 @@ struct TearJudge::Data {
   int threads;
   double diagonal;
   std::vector<CurvePair> rest;
-  std::future<std::vector<TriangleMesh>> meshes;  ///< made while the binder is
-  SurfaceBinder binder;
-  Binding own;
+  std::optional<SurfaceBinder> binder;  ///< once the constructor is through, as the next
+  std::optional<Binding> own;
   std::vector<Level> levels;
   std::vector<Nearest> nearest;  ///< of the finest level's points
 };
@@ -249,8 +251,8 @@ std::vector<Piece> TearJudge::Data::pieces(Points points) const {
 }
 
 void TearJudge::Data::find_tears(std::span<const CurvePair> posed, Points points, JudgeReport& report) const {
-  Limits limits =
-      find_limits(binder, posed, pieces(points), options.least_gap * diagonal, kShortest * diagonal, threads);
+  Limits limits = find_limits(*binder, posed, pieces(points), options.least_gap * diagonal,
+                              kShortest * diagonal, threads);
   report.verdict = limits.tears.empty() ? TearVerdict::smooth : TearVerdict::tear;
   report.torn = limits.tears.size();
   report.steepest = limits.steepest;
@@ -272,7 +274,7 @@ const PolygonMesh& TearJudge::mesh() const {
 }
 
 const Binding& TearJudge::own_binding() const {
-  return data_->own;
+  return *data_->own;
 }
 
 const Binding& TearJudge::binding() const {
