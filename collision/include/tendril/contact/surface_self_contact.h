@@ -61,7 +61,8 @@ struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 /// the range.
 ///
 /// Cost: of an evaluation some 0.2 us a curve-pair, some 4 us for each that may have come near another, and
-/// what is near; of a search, every dozen steps or so, an update of the mesh and some 0.1 us a triangle.
+/// what is near; of a search, every dozen steps or so, each where steps are long against the triangles, an
+/// update of the mesh and some 0.1 us a triangle.
 /// Implicit steps and equilibria take differences, by all nodes of the rods that hold what is in the range,
 /// of what is there alone.
 class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {

@@ -14,8 +14,8 @@ namespace {
 
 // A list serves while what moves stays within its margin: some steps' motion, and no less than what it takes
 // to come out of the range. Where steps are long against patches, all of which such a margin would have near
-// each other, fewer steps.
-constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 3.0, kOfPatch = 0.1;
+// each other, little more than a step: to search each time costs less than to look at so much at each stage.
+constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
 // What of a rod's room its motion may take before it is looked at by its curves, and stands anew.
 constexpr double kOfRoom = 0.7;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
