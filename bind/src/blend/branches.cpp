@@ -21,6 +21,16 @@ constexpr double kSmallest = 1e-150;  ///< scale, so that its square is a number
 
 using CandidateLists = std::vector<std::vector<Candidate>>;
 
+/// body(begin, end) over [0, count) by threads, a few hundred at a time: what is known of so many points and
+/// each of hundreds of curves takes little room.
+template <class Body>
+void in_blocks(std::size_t count, int threads, const Body& body) {
+  constexpr std::size_t kMost = 512;
+  in_parts(count, threads, [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; begin += kMost) body(begin, std::min(end, begin + kMost));
+  });
+}
+
 /// Whether two projections of neighbours belong to one branch: seen from the middle of the two, no maximum of
 /// the distance lies between them (which is sampled).
 bool same_branch(const SoftAxis& axis, const Vec3& middle, const Candidate& a, const Candidate& b) {
@@ -220,8 +230,9 @@ void BodyBranches::Data::nearest_to(Points points, std::span<const Known> known,
 
 void BodyBranches::Data::find_nearest(int threads) {
   std::vector<Candidate> nearest(lists.size());
-  in_parts(lists.size(), threads, [&](std::size_t begin, std::size_t end) {
+  in_blocks(lists.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Known> known;
+    known.reserve((end - begin) * projectors.size());
     for (std::size_t i = begin; i < end; ++i) know_node(static_cast<std::uint32_t>(i), known);
     nearest_to(grid.nodes().subspan(begin, end - begin), known, nearest.data() + begin);
   });
@@ -319,10 +330,11 @@ Branches BodyBranches::find(Points points, std::span<const std::uint32_t> face, 
   out.nearest.resize(points.size());
   out.influences.resize(points.size());
   std::vector<std::uint8_t> gated(points.size(), 0), cluster(points.size(), 0);
-  in_parts(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+  in_blocks(points.size(), threads, [&](std::size_t begin, std::size_t end) {
     const std::size_t curves = data_->projectors.size();
     std::vector<GridPlace> places;
     std::vector<Data::Known> known;
+    known.reserve((end - begin) * curves);
     for (std::size_t i = begin; i < end; ++i) {
       places.push_back(data_->grid.place(points[i], face_of[i]));
       data_->know(points[i], places.back(), known);

@@ -38,9 +38,12 @@ Ways::Ways(std::span<const CurveProjector> projectors, BodyGrid& grid, const Cur
       std::vector<double>& log = log_[k];
       log.assign(nodes, 0.0);
       for (std::size_t i = 0; any && i < nodes; ++i) {
+        if (!reached[i]) continue;
+        log[i] = kMost;
+        if (!std::isfinite(ways[k][i])) continue;
         const double way = static_cast<double>(ways[k][i]) / kDetour - kSlack * grid.spacing();
         const double straight = std::max(nearest[i], grid.spacing());
-        if (reached[i] && way > straight) log[i] = std::min(kMost, 2.0 * std::log(way / straight));
+        log[i] = way > straight ? std::min(kMost, 2.0 * std::log(way / straight)) : 0.0;
       }
       bound_growth(
           grid.nodes(), grid.neighbours(), [&](std::uint32_t i) -> double& { return log[i]; },

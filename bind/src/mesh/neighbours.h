@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -47,7 +48,11 @@ void bound_growth(Points points, const Neighbours& neighbours, const Value& valu
       waiting.push({most, next});
     }
   };
-  for (std::uint32_t i = 0; i < points.size(); ++i) spread(i);
+  // The highest bring nobody down, and are most of the points where a function is capped.
+  Number highest = std::numeric_limits<Number>::lowest();
+  for (std::uint32_t i = 0; i < points.size(); ++i) highest = std::max<Number>(highest, value(i));
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (value(i) < highest) spread(i);
   while (!waiting.empty()) {
     const auto [reached, i] = waiting.top();
     waiting.pop();
