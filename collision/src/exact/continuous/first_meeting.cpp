@@ -128,10 +128,10 @@ class Search {
   Search(Features features, const Paths<Degree>& paths, double free_until,
          const InDoubles<Degree>* in_doubles)
       : d_(paths), coplanar_(features, d_), free_until_(free_until) {
-    wanted_.none = [=, this](double from, double to) {
+    wanted_.none_between = [=, this](double from, double to) {
       return to < free_until || from > first_.to || (in_doubles && in_doubles->apart(from, to));
     };
-    wanted_.it = [=, this](const Root& at) {
+    wanted_.root = [=, this](const Root& at) {
       if (in_doubles) {
         const double from = round_down(at.low), to = round_up(at.high);
         if (in_doubles->apart(from, to)) return false;
@@ -142,8 +142,8 @@ class Search {
   }
 
   FirstMeeting run() {
-    if (meet_at_the_beginning()) return {Meeting::hit, Reason::none, 0.0, 0.0};
     const Polynomial determinant = d_.determinant();
+    if (determinant.c[0] == 0 && meet_at_the_beginning()) return {Meeting::hit, Reason::none, 0.0, 0.0};
     if (is_zero(determinant))
       in_one_plane();
     else
@@ -157,12 +157,12 @@ class Search {
     if (!is_zero(p) && find_root(p, wanted_, root)) keep_first(hit_at(root));
   }
 
+  /// Where they are in one plane then.
   bool meet_at_the_beginning() const {
     if (free_until_ > 0.0) return false;
     const IntegerPaths<Degree> there = d_.beginning();
     const Polynomial time{1, {0, 1}};
-    return is_zero(there.determinant()) &&
-           Coplanar<Degree>(coplanar_.features(), there).meet({&time, {0, 0}, {0, 0}});
+    return Coplanar<Degree>(coplanar_.features(), there).meet({&time, {0, 0}, {0, 0}});
   }
 
   /// The first of two brackets, or what holds the first of two times where the brackets overlap.

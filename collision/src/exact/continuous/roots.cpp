@@ -141,7 +141,7 @@ class Isolation {
 
  private:
   bool accept(const Root& root) {
-    if (!wanted_.it(root)) return false;
+    if (!wanted_.root(root)) return false;
     first = root;
     return true;
   }
@@ -219,7 +219,7 @@ class Isolation {
       return std::ldexp(static_cast<double>(static_cast<std::int64_t>(t.numerator)),
                         -static_cast<int>(t.exponent));
     };
-    return wanted_.none(at(part.low), at(part.high()));
+    return wanted_.none_between(at(part.low), at(part.high()));
   }
 
   Polynomial p_;

@@ -18,9 +18,9 @@ struct Root {
 /// Which roots are wanted.
 struct Wanted {
   /// Whether none between two times is.
-  std::function<bool(double, double)> none;
+  std::function<bool(double, double)> none_between;
   /// Whether this one is.
-  std::function<bool(const Root&)> it;
+  std::function<bool(const Root&)> root;
 };
 
 /// The roots of p, not zero, behind 0 and up to 1 in ascending order, each in a bracket of at most 2^-42,
