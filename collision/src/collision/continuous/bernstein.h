@@ -31,9 +31,9 @@ inline constexpr auto product_weights = make_product_weights<M, N>();
 constexpr std::size_t most_coefficients = 10;
 
 /// A polynomial for many values: coefficients times binomials, for Horner's rule in both s and 1 - s.
-class Weighted {
+class HornerForm {
  public:
-  explicit Weighted(std::span<const double> coefficients) : degree_(coefficients.size() - 1) {
+  explicit HornerForm(std::span<const double> coefficients) : degree_(coefficients.size() - 1) {
     double binomial = 1.0;
     for (std::size_t i = 0; i <= degree_; ++i) {
       c_[i] = binomial * coefficients[i];
@@ -54,17 +54,17 @@ class Weighted {
   std::array<double, most_coefficients> c_;
 };
 
-inline Weighted slope_of(std::span<const double> c) {
+inline HornerForm slope_of(std::span<const double> c) {
   std::array<double, most_coefficients> slopes{};
   const std::size_t degree = c.size() - 1;
   for (std::size_t i = 0; i < degree; ++i) slopes[i] = static_cast<double>(degree) * (c[i + 1] - c[i]);
-  return Weighted({slopes.data(), degree});
+  return HornerForm({slopes.data(), degree});
 }
 
 /// A root of a polynomial with one root in [0, 1] and opposite signs at the ends, to about the rounding of
 /// its values: steps of Newton's method, halving where one leaves the bracket.
 inline double approximate_root(std::span<const double> c) {
-  const Weighted value(c), slope = slope_of(c);
+  const HornerForm value(c), slope = slope_of(c);
   double low = 0.0;
   double high = 1.0;
   double s = c.front() / (c.front() - c.back());

@@ -82,7 +82,7 @@ class Search {
     const FirstMeeting wide{Meeting::hit, Reason::none, now.from.time, now.to.time};
     if (!(paths_.permanent() > SharpDeterminant<Degree>::least_permanent)) return wide;
     const SharpDeterminant<Degree> determinant(given_, paths_.scale());
-    const Weighted slope_there = slope_of(c);
+    const HornerForm slope_there = slope_of(c);
     const double width = now.to.time - now.from.time, size = paths_.permanent();
     const double slope_error = 2 * n * (paths_.coefficient_error() + 0x1p-44 * size) / width;
     const double error = SharpDeterminant<Degree>::error() * size + half_bracket * slope_error +
