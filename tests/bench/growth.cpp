@@ -34,11 +34,10 @@ double seconds_per_node_step(const Problem& problem, Method method) {
   const double nodes = static_cast<double>(problem.system.node_count());
   const double h =
       method == Method::rodas ? 1e-3 : 0.2 / problem.system.largest_frequency(problem.start, 16, *work);
-  const int steps = std::clamp(static_cast<int>((method == Method::rodas ? 4e4 : 2e5) / nodes), 2, 100);
+  const int steps = std::clamp(static_cast<int>((method == Method::rodas ? 4e4 : 5e5) / nodes), 4, 100);
   const std::unique_ptr<Stepper> stepper = make_stepper(method, problem.system);
-  const double seconds = fastest(3, [&] {
-    State state = problem.start;
-    stepper->restart();
+  State state = problem.start;
+  const double seconds = fastest(5, [&] {
     for (int i = 0; i < steps; ++i)
       if (!stepper->advance(state, h).ok()) throw std::runtime_error("a step failed");
   });
@@ -102,6 +101,9 @@ OrderedJson growth(const Settings& settings) {
       if (!settings.quick || nodes <= 10'000)
         add(table, out, "chain of " + std::to_string(nodes), method,
             measure([&] { return long_chain(nodes); }, method));
+    for (const int rods : {1, 256})
+      add(table, out, std::to_string(rods) + (rods == 1 ? " rod of 32" : " rods of 32"), method,
+          measure([&] { return stirred_rods(rods, 32, false); }, method));
     for (const int leaves : {10, 100, 1000})
       if (!settings.quick || leaves <= 100)
         add(table, out, "tree of " + std::to_string(leaves) + " leaves", method,

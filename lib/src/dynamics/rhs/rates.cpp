@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "dynamics/body/bodies.h"
 #include "dynamics/vector/column_access.h"
+#include "dynamics/vector/finite.h"
 #include "elastic.h"
 #include "kinematics.h"
 #include "pull_back.h"
@@ -152,10 +152,6 @@ TENDRIL_LANES double damping_power(const Model& model, const Kinematics& kin) {
   return -power;
 }
 
-TENDRIL_INLINE std::int64_t no_number(double x) {
-  return std::fabs(x) <= std::numeric_limits<double>::max() ? 0 : 1;
-}
-
 /// v' of all nodes, from the forces on them, or from those along the edges where there is nothing else; 0
 /// where the position is held. False where one is not finite.
 template <bool ByEdges>
@@ -242,7 +238,7 @@ bool add_spin_torques(const Model& model, const LoadColumns& loads, Eigen::Vecto
 
 Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                  Eigen::VectorXd& dy, System::Workspace& work) {
-  auto& [kin, grad, loads, pull] = work;
+  auto& [kin, grad, loads, pull, tiles] = work;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
   if (const Evaluation at = kinematics(model, reference, t, y, what, kin); !at.ok()) return at;
   double heat = 0.0;
@@ -285,7 +281,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
 
 Evaluation power_of_loads(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                           double& power, System::Workspace& work) {
-  auto& [kin, grad, loads, pull] = work;
+  auto& [kin, grad, loads, pull, tiles] = work;
   power = 0.0;
   if (!model.loaded) {
     take_velocities(model, y, kin);
@@ -318,7 +314,7 @@ Evaluation refusal(const Model& model, const State& state, System::Workspace& wo
 Evaluation undifferentiated_loads(const Model& model, const State& reference, const Eigen::VectorXd& y,
                                   std::span<const Undifferentiated> forces, Eigen::VectorXd& out,
                                   System::Workspace& work) {
-  auto& [kin, grad, loads, pull] = work;
+  auto& [kin, grad, loads, pull, tiles] = work;
   if (const Evaluation at = kinematics(model, reference, reference.time, y, Motion::all, kin); !at.ok())
     return at;
   relax(kin, grad);

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <memory>
 
 #include "dynamics/scene/model.h"
 #include "dynamics/vector/columns.h"
@@ -82,6 +83,9 @@ struct Pull {
   Columns3 edge_force, force;
 };
 
+/// What a tile needs beside; see tiles.h.
+class TileScratch;
+
 class System::Workspace {
  public:
   explicit Workspace(const Model& model);
@@ -90,6 +94,7 @@ class System::Workspace {
   Gradient gradient;
   LoadColumns loads;
   Pull pull;
+  std::shared_ptr<TileScratch> tiles;  ///< null until they are needed
 };
 
 }  // namespace tendril

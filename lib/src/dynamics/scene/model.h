@@ -3,6 +3,7 @@
 #include <tendril/dynamics/couplings.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "access.h"
@@ -11,13 +12,16 @@
 
 namespace tendril {
 
+class Tiles;
+
 /// A scene on flat arrays. Arrays per edge have an entry per node; that of a rod's last node is not used, so
 /// that edge i always joins the nodes i and i + 1.
 struct System::Model {
   Model(Scene description, double since);
+  Model() = default;  ///< empty: a part of a scene is put in afterwards (tiles.h)
 
   Scene scene;
-  double from;                  ///< the time from which this holds
+  double from = 0.0;            ///< the time from which this holds
   std::vector<Anchor> anchors;  ///< those of the scene that have not let go by then
   std::vector<NodeRange> rods;
   std::vector<std::size_t> order;  ///< of the rods, parents before their children
@@ -142,6 +146,9 @@ struct System::Model {
   std::vector<Acting> acting;
   bool loaded = false;  ///< there are such
   bool damped = false;  ///< some rod has mass damping
+
+  std::shared_ptr<const Tiles>
+      tiles;  ///< of a large scene whose steps may be taken a part at a time; or null
 
   // Per edge, and per edge and end (2 i at node i, 2 i + 1 at node i + 1).
   std::vector<double> stretch, twist, width, viscosity, rest_length, rest_twist;

@@ -284,7 +284,7 @@ class BlockSolver : public StiffSolver {
   /// with its viscous part.
   Evaluation take_gradient(const State& state) {
     double heat = 0.0;
-    auto& [kin, grad, loads, pull] = work_;
+    auto& [kin, grad, loads, pull, tiles] = work_;
     const Motion what = rates_matter_ || turning_ ? Motion::all : Motion::positions;
     if (const Evaluation e = kinematics(model_, state, state.time, state.y, what, kin); !e.ok()) return e;
     const Inner inner{.viscous = turning_.has_value(), .gyroscopic = false};

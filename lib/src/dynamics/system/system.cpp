@@ -5,6 +5,7 @@
 #include "dynamics/rhs/kinematics.h"
 #include "dynamics/rhs/pull_back.h"
 #include "dynamics/rhs/rates.h"
+#include "dynamics/tiles/tiles.h"
 #include "dynamics/vector/finite.h"
 
 namespace tendril {
@@ -12,9 +13,15 @@ namespace {
 
 using Workspace = System::Workspace;
 
+std::unique_ptr<const Model> make_model(Scene scene, double from) {
+  auto model = std::make_unique<Model>(std::move(scene), from);
+  model->tiles = tiles_for(*model);
+  return model;
+}
+
 }  // namespace
 
-System::System(Scene scene, double from) : model_(std::make_unique<const Model>(std::move(scene), from)) {}
+System::System(Scene scene, double from) : model_(make_model(std::move(scene), from)) {}
 System::~System() = default;
 System::System(System&&) noexcept = default;
 System& System::operator=(System&&) noexcept = default;
@@ -72,7 +79,7 @@ Evaluation System::derivative(const State& reference, double t, const Eigen::Vec
 Evaluation System::elastic_gradient(const State& reference, double t, const Eigen::VectorXd& y,
                                     double& energy, Eigen::VectorXd& gradient, Workspace& work) const {
   const Model& model = *model_;
-  auto& [kin, grad, loads, pull] = work;
+  auto& [kin, grad, loads, pull, tiles] = work;
   if (const Evaluation at = kinematics(model, reference, t, y, Motion::positions, kin); !at.ok()) return at;
   if (const Evaluation at = elastic_energy(model, reference, kin, grad, energy); !at.ok()) return at;
   no_loads(kin, loads);
@@ -88,7 +95,7 @@ Evaluation System::elastic_gradient(const State& reference, double t, const Eige
 Energies System::energies(const State& state, Workspace& work) const {
   const Model& model = *model_;
   Energies result;
-  auto& [kin, grad, loads, pull] = work;
+  auto& [kin, grad, loads, pull, tiles] = work;
   const Motion what = model.loaded ? Motion::all : Motion::springs;
   if (!all_finite(state.y)) return result;
   if (!kinematics(model, state, state.time, state.y, what, kin).ok()) return result;

@@ -46,26 +46,41 @@ TENDRIL_LANES void add_up(std::size_t size, const double* from, const Term* term
   }
 }
 
-/// The sums of five vectors.
-TENDRIL_LANES void add_up_both(std::size_t size, const double* __restrict from, const Term* terms,
-                               const double* error_weights, double* __restrict to, double* __restrict error) {
+/// Five vectors and their weights in two sums.
+struct Both {
   std::array<const double*, kBoth> k;
   std::array<double, kBoth> w, e;
-  for (std::size_t j = 0; j < kBoth; ++j) {
-    k[j] = terms[j].vector->data();
-    w[j] = terms[j].weight;
-    e[j] = error_weights[j];
-  }
+};
+
+template <bool WithError>
+TENDRIL_INLINE bool add_up_both(std::size_t size, const double* __restrict from, const Both& both,
+                                double* __restrict to, double* __restrict error) {
+  const auto [k, w, e] = both;
+  std::int64_t bad = 0;
   TENDRIL_LOOP
   for (std::size_t i = 0; i < size; ++i) {
-    double sum = w[0] * k[0][i], off = e[0] * k[0][i];
+    double sum = w[0] * k[0][i], off = 0.0;
+    if constexpr (WithError) off = e[0] * k[0][i];
     for (std::size_t j = 1; j < kBoth; ++j) {
       sum += w[j] * k[j][i];
-      off += e[j] * k[j][i];
+      if constexpr (WithError) off += e[j] * k[j][i];
     }
-    to[i] = from[i] + sum;
-    error[i] = off;
+    const double at = from[i] + sum;
+    to[i] = at;
+    bad |= no_number(at);
+    if constexpr (WithError) {
+      error[i] = off;
+      bad |= no_number(off);
+    }
   }
+  return bad == 0;
+}
+TENDRIL_LANES bool add_up_alone(std::size_t size, const double* from, const Both& both, double* to) {
+  return add_up_both<false>(size, from, both, to, nullptr);
+}
+TENDRIL_LANES bool add_up_with_error(std::size_t size, const double* from, const Both& both, double* to,
+                                     double* error) {
+  return add_up_both<true>(size, from, both, to, error);
 }
 
 }  // namespace
@@ -81,17 +96,19 @@ void combine(const Eigen::VectorXd* from, const Term* terms, std::size_t count, 
 }
 
 bool combine_both(const Eigen::VectorXd& from, const Term* terms, const double* error_weights,
-                  std::size_t count, Eigen::VectorXd& to, Eigen::VectorXd& error) {
-  std::array<Term, kBoth> all;
-  std::array<double, kBoth> weights{};
-  all.fill({0.0, terms[0].vector});
-  std::copy(terms, terms + count, all.begin());
-  std::copy(error_weights, error_weights + count, weights.begin());
-  to.resize(from.size());
-  error.resize(from.size());
-  add_up_both(static_cast<std::size_t>(from.size()), from.data(), all.data(), weights.data(), to.data(),
-              error.data());
-  return all_finite(to) && all_finite(error);
+                  std::size_t count, const Stretch& stretch, Eigen::VectorXd& to, Eigen::VectorXd* error) {
+  Both both{};
+  both.k.fill(terms[0].vector->data() + stretch.from);
+  for (std::size_t j = 0; j < count; ++j) {
+    both.k[j] = terms[j].vector->data() + stretch.from;
+    both.w[j] = terms[j].weight;
+    both.e[j] = error_weights[j];
+  }
+  const auto size = static_cast<std::size_t>(stretch.count);
+  const double* start = from.data() + stretch.from;
+  double* put = to.data() + stretch.to;
+  return error ? add_up_with_error(size, start, both, put, error->data() + stretch.to)
+               : add_up_alone(size, start, both, put);
 }
 
 }  // namespace tendril

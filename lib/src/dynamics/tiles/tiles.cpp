@@ -1,0 +1,140 @@
+#include "tiles.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tendril {
+namespace {
+
+// Nodes of a tile: some 1.5 kB each go through a step.
+constexpr std::size_t kOwn = 1024;
+// Scenes of fewer nodes have no tiles: the cache holds them.
+constexpr std::size_t kWorthIt = 4 * kOwn;
+// The force on a node depends on the three before it and behind (its edges' twist turns the frames at their other
+// ends, which halve the angles to the edges beyond), and a step has six stages.
+constexpr std::size_t kFelt = 3 * 6;
+
+bool passes_through_springs_alone(const Model& model) {
+  return !model.loaded && model.attachments.empty() && model.bodies.empty() && model.sliders.empty() &&
+         model.swivels.empty() &&
+         std::none_of(model.segments.begin(), model.segments.end(),
+                      [](const Model::Segment& segment) { return segment.viscous; });
+}
+
+/// Where the tile that begins at a node ends: between two rods, where such a place is near.
+std::size_t end_of_tile(const Model& model, std::size_t first) {
+  const std::size_t farthest = std::min(first + kOwn, model.nodes);
+  if (farthest == model.nodes) return farthest;
+  for (std::size_t i = farthest; i > first + kOwn / 2; --i)
+    if (model.begins[i] != 0) return i;
+  return farthest;
+}
+
+/// As far as own nodes feel, but not beyond their rod.
+std::size_t begin_of_felt(const Model& model, std::size_t first) {
+  for (std::size_t k = 0; k < kFelt && model.begins[first] == 0; ++k) --first;
+  return first;
+}
+std::size_t end_of_felt(const Model& model, std::size_t end) {
+  for (std::size_t k = 0; k < kFelt && model.ends[end - 1] == 0; ++k) ++end;
+  return end;
+}
+
+/// Where the numbers of the nodes [first, end) stand in the scene's y and in the part's.
+std::vector<Stretch> stretches(const Model& whole, const Model& part, std::size_t begin, std::size_t first,
+                               std::size_t end) {
+  const auto at = static_cast<Eigen::Index>(first), in_part = static_cast<Eigen::Index>(first - begin),
+             count = static_cast<Eigen::Index>(end - first);
+  std::vector<Stretch> result{{3 * at, 3 * in_part, 3 * count},
+                              {whole.v_begin() + 3 * at, part.v_begin() + 3 * in_part, 3 * count}};
+  // The places of nodes among the twist states rise with the nodes.
+  while (first < end && !whole.has_twist(first)) ++first;
+  while (first < end && !whole.has_twist(end - 1)) --end;
+  if (first == end) return result;
+  const Eigen::Index from = whole.twist_index[first], to = part.twist_index[first - begin],
+                     turning = whole.twist_index[end - 1] - from + 1;
+  result.push_back({whole.theta_begin() + from, part.theta_begin() + to, turning});
+  result.push_back({whole.spin_begin() + from, part.spin_begin() + to, turning});
+  return result;
+}
+
+std::vector<Stretch> turned_round(std::vector<Stretch> stretches) {
+  for (Stretch& stretch : stretches) std::swap(stretch.from, stretch.to);
+  return stretches;
+}
+
+template <class T>
+void take_part(const std::vector<T>& from, const Tiles::Tile& tile, std::vector<T>& to) {
+  const auto at = from.begin() + static_cast<std::ptrdiff_t>(tile.begin);
+  to.assign(at, at + static_cast<std::ptrdiff_t>(tile.part->nodes));
+}
+
+}  // namespace
+
+Tiles::Tiles(const Model& model) {
+  const std::vector<AnchoredNode> anchored = anchored_nodes(model);
+  for (std::size_t first = 0; first < model.nodes;) {
+    const std::size_t end = end_of_tile(model, first);
+    const std::size_t begin = begin_of_felt(model, first);
+    const std::shared_ptr<const Model> part =
+        part_of(model, anchored, begin, end_of_felt(model, end), first, end);
+    tiles_.push_back({first, end, begin, part, stretches(model, *part, begin, begin, begin + part->nodes),
+                      turned_round(stretches(model, *part, begin, first, end)), 0});
+    first = end;
+  }
+  number_workspaces();
+}
+
+/// Numbers that one tile leaves and another does not write may not matter to that: so it is where both have as many nodes
+/// and these are all of a kind.
+void Tiles::number_workspaces() {
+  const auto uniform = [](const Model& part) {
+    return part.twist_nodes == 0 || part.twist_nodes == part.nodes;
+  };
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+    const Model& part = *tiles_[k].part;
+    const auto alike = [&](const Tile& other) {
+      return uniform(*other.part) && other.part->nodes == part.nodes &&
+             other.part->twist_nodes == part.twist_nodes;
+    };
+    const auto here = tiles_.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto before = uniform(part) ? std::find_if(tiles_.begin(), here, alike) : here;
+    tiles_[k].workspace = before == here ? count++ : before->workspace;
+  }
+}
+
+std::shared_ptr<const Tiles> tiles_for(const Model& model) {
+  if (model.nodes < kWorthIt || !passes_through_springs_alone(model)) return nullptr;
+  return std::make_shared<const Tiles>(model);
+}
+
+TileScratch::TileScratch(const Tiles& tiles) {
+  for (const Tiles::Tile& tile : tiles.all()) {
+    if (tile.workspace == workspaces_.size())
+      workspaces_.push_back(std::make_unique<System::Workspace>(*tile.part));
+    std::vector<AnchorPose>& pose = workspace(tile).kinematics.pose;
+    pose.resize(std::max(pose.size(), tile.part->anchors.size()));
+  }
+}
+
+TileScratch& TileScratch::of(const Model& whole, System::Workspace& work) {
+  if (!work.tiles) work.tiles.reset(new TileScratch(*whole.tiles));
+  return *work.tiles;
+}
+
+const State& TileScratch::take(const Tiles::Tile& tile, const State& from) {
+  const Model& part = *tile.part;
+  state_.time = from.time;
+  state_.y.resize(part.size());
+  for (const Stretch& all : tile.all)
+    state_.y.segment(all.to, all.count) = from.y.segment(all.from, all.count);
+  state_.y[part.work_index()] = 0.0;
+  if (part.twist_nodes == 0 && part.anchors.empty()) return state_;
+  take_part(from.tangent, tile, state_.tangent);
+  take_part(from.director, tile, state_.director);
+  take_part(from.twist, tile, state_.twist);
+  return state_;
+}
+
+}  // namespace tendril
