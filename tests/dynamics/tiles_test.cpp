@@ -1,4 +1,4 @@
-// Steps of large scenes are taken a range of nodes at a time; of the same scene beside a free body, as a whole.
+// Steps of large scenes are taken a range of nodes at a time; beside a free body, as a whole.
 #include <gtest/gtest.h>
 #include <tendril/dynamics/cash_karp.h>
 #include <tendril/dynamics/forces.h>
@@ -100,12 +100,16 @@ Scene uneven_scene(Random& random) {
   scene.anchors.push_back({.rod = 0, .node = 0});
   scene.anchors.push_back({.rod = 0, .node = 1020, .holds_frame = false});
   scene.anchors.push_back({.rod = 0, .node = 2051, .holds_position = false});
-  scene.anchors.push_back({.rod = 0, .node = 3000});
+  scene.anchors.push_back({.rod = 0, .node = 3070});
   const System rest{Scene{{scene.rods[0]}, {}, {}, {}}};
-  const Frame frame = rest.frames(rest.rest_state(), *rest.make_workspace())[3000];
-  const Vec3 at = scene.rods[0].p[3000];
+  const Frame frame = rest.frames(rest.rest_state(), *rest.make_workspace())[3070];
+  const Vec3 at = scene.rods[0].p[3070];
   scene.anchors[3].motion = [frame, at](double t) {
-    return AnchorPose{at + t * Vec3(0.1, 0.2, -0.1), frame, Vec3(0.1, 0.2, -0.1), Vec3::Zero()};
+    const auto turned = [&](const Vec3& v) { return rotate_about(Vec3::UnitZ(), 3.0 * t, v); };
+    return AnchorPose{at + t * Vec3(0.1, 0.2, -0.1),
+                      {turned(frame.x), turned(frame.y), turned(frame.z)},
+                      Vec3(0.1, 0.2, -0.1),
+                      3.0 * Vec3::UnitZ()};
   };
   scene.forces.push_back(std::make_shared<Gravity>(Vec3(0, 0, -9.81)));
   return scene;

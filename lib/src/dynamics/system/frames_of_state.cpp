@@ -78,8 +78,8 @@ TENDRIL_LANES void take_reference(std::size_t first, std::size_t end, const Kine
   }
 }
 
-/// Kinematics of a scene or of a tile of it, whose nodes begin at the scene's node `begin`; of them [first, end) are to
-/// be rebased, as flat nodes of the scene.
+/// Kinematics of a scene, or of a tile of it whose nodes begin at the scene's node `begin`; of them
+/// [first, end) are to be rebased, as flat nodes of the scene.
 struct Seen {
   const Model& part;
   const Kinematics& kin;
@@ -129,8 +129,8 @@ void rebase_nodes(const Model& model, const Seen& seen, State& state) {
     state.y[model.spin_begin() + model.twist_index[seen.part.swivels[k].node]] = seen.kin.swivel_spin[k];
 }
 
-/// One tile after the other: the next one's frames are found from a state of which the tiles before are rebased
-/// already, which is the same state. False where one has no frames.
+/// One tile after the other: the next one's frames are found from a state of which the tiles before are
+/// rebased already, which is the same state. False where one has no frames.
 bool rebase_tiles(const Model& model, State& state, System::Workspace& work) {
   TileScratch& scratch = TileScratch::of(model, work);
   std::size_t r = 0;

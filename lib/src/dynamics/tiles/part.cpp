@@ -32,7 +32,7 @@ Column column_of(const Cut& cut, const Column& from, std::size_t& rank) {
   return to;
 }
 
-/// Ranges of nodes stand in the order of the nodes, as do lists of them: a part is found without a look at all.
+/// Ranges of nodes stand in the order of the nodes, as do lists of them: those of a part are found at once.
 template <class Range>
 std::span<const Range> meeting(const Cut& cut, const std::vector<Range>& ranges, const auto& end_of) {
   const auto first = std::partition_point(ranges.begin(), ranges.end(),

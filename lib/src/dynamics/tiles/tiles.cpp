@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kOwn = 1024;
 // Scenes of fewer nodes have no tiles: the cache holds them.
 constexpr std::size_t kWorthIt = 4 * kOwn;
-// The force on a node depends on the three before it and behind (its edges' twist turns the frames at their other
-// ends, which halve the angles to the edges beyond), and a step has six stages.
+// The force on a node depends on the three before it and behind (its edges' twist turns the frames at their
+// other ends, which halve the angles to the edges beyond), and a step has six stages.
 constexpr std::size_t kFelt = 3 * 6;
 
 bool passes_through_springs_alone(const Model& model) {
@@ -85,8 +85,8 @@ Tiles::Tiles(const Model& model) {
   number_workspaces();
 }
 
-/// Numbers that one tile leaves and another does not write may not matter to that: so it is where both have as many nodes
-/// and these are all of a kind.
+/// Numbers that one tile leaves and another does not write may not matter to that one: so it is where both
+/// have as many nodes and these are all of a kind.
 void Tiles::number_workspaces() {
   const auto uniform = [](const Model& part) {
     return part.twist_nodes == 0 || part.twist_nodes == part.nodes;

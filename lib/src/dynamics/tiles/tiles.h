@@ -5,11 +5,12 @@
 
 namespace tendril {
 
-/// The nodes of a large scene in ranges whose arrays the cache holds: all stages of a step go through one range
-/// before the next, and numbers between them come from the cache and not from memory. A range has beside its own
-/// nodes those that these feel within a step, which neighbours compute again.
+/// The nodes of a large scene in ranges whose arrays the cache holds: all stages of a step go through one
+/// range before the next, and numbers between them come from the cache and not from memory. A range has
+/// beside its own nodes those that these feel within a step, which its neighbours compute again.
 ///
-/// For scenes in which nothing but rods' own springs passes on what a node feels: no loads, joints nor bodies.
+/// For scenes in which nothing but the rods' own springs passes on what a node feels: no loads, joints,
+/// bodies, slides, swivels nor viscosity.
 class Tiles {
  public:
   /// Answers for the nodes [first, end) of the scene; those of `part` begin at the scene's node `begin`.

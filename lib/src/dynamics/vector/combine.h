@@ -21,8 +21,8 @@ struct Stretch {
   Eigen::Index from, to, count;
 };
 
-/// A stretch of two sums of the same vectors in one pass, `from` added to the first: a step and its error, which may be
-/// null where nobody asks. Five vectors at most. False when a number is not finite.
+/// A stretch of two sums of the same vectors in one pass, `from` added to the first: a step and its error,
+/// which may be null where nobody asks. Five vectors at most. False when a number is not finite.
 bool combine_both(const Eigen::VectorXd& from, const Term* terms, const double* error_weights,
                   std::size_t count, const Stretch& stretch, Eigen::VectorXd& to, Eigen::VectorXd* error);
 
