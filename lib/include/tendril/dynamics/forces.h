@@ -19,6 +19,7 @@ class TENDRIL_CORE_API Gravity final : public Force {
   bool has_energy() const override { return true; }
   double energy(const StateView& state) const override;
   std::optional<Vec3> uniform_acceleration() const override { return g_; }
+  bool acts_on_frames() const override { return false; }
 
  private:
   Vec3 g_;
@@ -50,6 +51,7 @@ class TENDRIL_CORE_API Wind : public Force {
   Couplings couplings(std::span<const NodeRange> rods) const override;
   std::vector<double> breaks() const override { return options_.switched.breaks(); }
   double period() const override;
+  bool acts_on_frames() const override { return false; }
   /// Air velocity at a point and time.
   Vec3 velocity(const Vec3& x, double t) const;
   /// And its derivative by x.
@@ -77,6 +79,7 @@ class TENDRIL_CORE_API PointLoad : public Force {
   bool has_energy() const override { return kind_ == Kind::force && signal_.is_constant(); }
   double energy(const StateView& state) const override;
   bool twists() const override { return kind_ == Kind::torque; }
+  bool acts_on_frames() const override { return kind_ == Kind::torque; }
   Couplings couplings(std::span<const NodeRange> rods) const override;
   bool depends_on_time() const override { return !signal_.is_constant(); }
   std::vector<double> breaks() const override { return signal_.breaks(); }
@@ -95,6 +98,7 @@ class TENDRIL_CORE_API PullTowards : public Force {
   /// Throws InvalidInput for a target that is not finite or a negative stiffness [force / length].
   PullTowards(std::size_t rod, std::size_t node, const Vec3& target, double stiffness);
   bool depends_on_time() const override { return false; }
+  bool acts_on_frames() const override { return false; }
   void add(const StateView& state, const Loads& loads) const override;
   void check(std::span<const NodeRange> rods) const override;
   bool has_energy() const override { return true; }

@@ -50,6 +50,7 @@ struct Columns {
         g_length(grad.length.data()),
         g_spin(grad.spin.data()),
         twist_torque(grad.twist_torque.data()),
+        twist_strain(grad.twist_strain.data()),
         energy(grad.energy.data()),
         heat(grad.heat.data()) {}
 
@@ -72,6 +73,7 @@ struct Columns {
   double* __restrict g_length;
   double* __restrict g_spin;
   double* __restrict twist_torque;
+  double* __restrict twist_strain;
   double* __restrict energy;
   double* __restrict heat;
 };
@@ -190,6 +192,7 @@ TENDRIL_INLINE bool twist(const Columns& c, std::size_t i, const Axes& f, double
     const double resistance = c.viscosity[i] * c.k_twist[i] * rate;
     heat += resistance * rate;
     torque += resistance;
+    c.twist_strain[i] = strain;
   }
   c.twist_torque[i] = torque;
   c.twist_tangent.put(i, (torque * s) * lanes::cross(f.t, tb));
@@ -356,7 +359,7 @@ Evaluation elastic(const Model& model, const State& reference, Inner inner, cons
       return at;
   }
   clear_ends(model, grad);
-  if (!model.hubs.empty()) give_way_at_hubs(model, reference, inner.viscous, kin, grad);
+  if (!model.hubs.empty()) give_way_at_hubs(model, inner.viscous, kin, grad);
   for (const Segment& s : model.segments) {
     if (inner.viscous && s.viscous) heat += resist_stretch(model, s, kin, grad) + sum_of(grad.heat, s);
     if (s.twist) (inner.gyroscopic ? gather_all : gather_springs)(model, s, kin, grad);
@@ -375,7 +378,7 @@ Evaluation elastic_energy(const Model& model, const State& reference, const Kine
       return at;
   }
   clear_ends(model, grad);
-  energy = give_way_at_hubs(model, reference, false, kin, grad);
+  energy = give_way_at_hubs(model, false, kin, grad);
   for (const Segment& s : model.segments) {
     energy += sum_of(grad.energy, s);
     if (s.twist) gather_springs(model, s, kin, grad);

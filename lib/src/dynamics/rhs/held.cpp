@@ -134,15 +134,9 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
   return energy;
 }
 
-double twist_strain(const Model& model, const State& reference, std::size_t i, const Kinematics& kin) {
-  const double raw = twist_angle(kin.frame[i], kin.frame[i + 1]);
-  return reference.twist[i] + lanes::less_turns(raw - reference.twist[i]) - model.rest_twist[i];
-}
-
-double give_way_at_hubs(const Model& model, const State& reference, bool viscous, const Kinematics& kin,
-                        Gradient& grad) {
+double give_way_at_hubs(const Model& model, bool viscous, const Kinematics& kin, Gradient& grad) {
   const auto strain = [&](std::size_t i) {
-    if (viscous && model.viscosity[i] > 0.0) return twist_strain(model, reference, i, kin);
+    if (viscous && model.viscosity[i] > 0.0) return grad.twist_strain[i];
     return model.twist[i] > 0.0 ? grad.twist_torque[i] / model.twist[i] : 0.0;
   };
   double energy = 0.0;

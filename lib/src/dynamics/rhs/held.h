@@ -18,15 +18,11 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
 double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const EdgeAngles* after,
                           const Kinematics& kin, Gradient& grad, double& heat);
 
-/// The twist of edge i from its rest, unwrapped as at the reference.
-double twist_strain(const Model& model, const State& reference, std::size_t i, const Kinematics& kin);
-
 /// At the nodes where rods are joined: lets the twist springs of the children's first edges give way, once
 /// the loops have filled them, and says by grad.given how much their bending does. Returns what that adds to
 /// the energy, -1/2 T.omega. The energy is least at omega, so that its gradient is that with omega held
 /// still. What resists does not give way.
 /// \param viscous  the loops' torques have their viscous part
-double give_way_at_hubs(const Model& model, const State& reference, bool viscous, const Kinematics& kin,
-                        Gradient& grad);
+double give_way_at_hubs(const Model& model, bool viscous, const Kinematics& kin, Gradient& grad);
 
 }  // namespace tendril

@@ -308,7 +308,7 @@ Evaluation kinematics(const Model& model, const State& reference, double t, cons
                       Motion what, Kinematics& kin) {
   ++kin.number;
   kin.whole = false;
-  if (what != Motion::springs && !all_finite(y)) return {Outcome::not_finite, 0};
+  if ((what != Motion::springs || model.loaded) && !all_finite(y)) return {Outcome::not_finite, 0};
   set_nodes(model, t, y, kin);
   const bool bad = (what == Motion::positions ? measure_positions : measure_all)(0, model.nodes, kin);
   clear_ends(model, kin);

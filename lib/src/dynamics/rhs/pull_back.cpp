@@ -100,7 +100,7 @@ void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, Lo
     pass_on_torque(*attached, kin, grad, loads);
   if (!model.swivels.empty()) turn_swivels(model, kin, grad, loads);
   for (const Segment& s : model.segments)
-    (s.twist || model.loaded ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
+    (s.twist || model.turned ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
   for (const auto* held : {&model.bending.held, &model.bending.held_hinges})
     for (const std::size_t node : *held) through_held_edges(node, kin, grad, pull);
 }

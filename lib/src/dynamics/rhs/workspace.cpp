@@ -20,12 +20,14 @@ System::Workspace::Workspace(const System::Model& model) {
        {&k.p, &k.v, &k.frame.y, &k.frame.z, &k.e, &k.rate.e_rate, &k.rate.turning, &g.bend, &g.before,
         &g.after, &g.tangent, &g.twist_tangent, &pull.edge_force, &pull.force, &g.given})
     *vectors = Columns3(n, std::exchange(rank, rank + 3));
-  for (auto* numbers : {&k.length, &k.inverse_length, &k.rate.length_rate, &k.inverse_bisector, &k.spin,
-                        &k.rate.connection, &g.spin, &g.length, &g.twist_torque, &g.energy, &g.heat})
+  for (auto* numbers :
+       {&k.length, &k.inverse_length, &k.rate.length_rate, &k.inverse_bisector, &k.spin, &k.rate.connection,
+        &g.spin, &g.length, &g.twist_torque, &g.twist_strain, &g.energy, &g.heat})
     *numbers = Column(n, rank++);
   if (!model.loaded) return;
-  for (auto* vectors : {&loads.p, &loads.v, &loads.t, &loads.m, &loads.turn, &loads.load, &loads.torque})
-    vectors->assign(n, Vec3::Zero());
+  for (auto* vectors : {&loads.p, &loads.v, &loads.load}) vectors->assign(n, Vec3::Zero());
+  if (!model.turned) return;
+  for (auto* vectors : {&loads.t, &loads.m, &loads.turn, &loads.torque}) vectors->assign(n, Vec3::Zero());
   loads.spin.assign(n, 0.0);
 }
 

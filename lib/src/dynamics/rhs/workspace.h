@@ -62,6 +62,7 @@ struct Gradient {
   Column spin, length;
   Columns3 twist_tangent;               ///< per edge: what its twist spring gives either tangent
   Column twist_torque;                  ///< per edge
+  Column twist_strain;                  ///< per edge, where the viscous part was asked for and some resists
   std::vector<Vec3> swivel;             ///< per swivel, as a torque on its frame, minus it; loads count
   std::vector<EdgeAngles> child_edges;  ///< of the hubs' children in turn, their first edges
   Columns3 given;       ///< per child's root, what its hub gives way of (l, m, twist); elsewhere 0
@@ -69,7 +70,8 @@ struct Gradient {
   Made made;
 };
 
-/// What forces other than gravity see and give; empty without them.
+/// What forces other than gravity see and give; empty without them, and what is of frames where none acts on
+/// those.
 struct LoadColumns {
   std::vector<Vec3> p, v, t, m, turn;
   std::vector<double> spin;

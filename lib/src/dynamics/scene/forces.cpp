@@ -89,9 +89,15 @@ class Gusts {
     const double size = options.gust / std::sqrt(static_cast<double>(waves.size()));
     for (const auto& wave : waves) {
       const double omega = 2 * std::numbers::pi * wave.frequency, phase = omega * t + wave.phase;
-      waves_.push_back({omega, phase, size, size * std::sin(phase), size * std::cos(phase)});
+      waves_.push_back({omega, phase, size});
+      carried_.push_back({size * std::sin(phase), size * std::cos(phase), omega});
+      slopes_.push_back({-omega * carried_.back().c, omega * carried_.back().s, omega});
+      fastest_ = std::max(fastest_, omega);
     }
   }
+
+  /// The delay of a point is its product with this.
+  Vec3 delays() const { return square_ > 0.0 ? Vec3(mean_ / square_) : Vec3(Vec3::Zero()); }
 
   /// How long after the origin the air passes a point.
   double delay(const Vec3& x) const { return square_ > 0.0 ? x.dot(mean_) / square_ : 0.0; }
@@ -106,23 +112,21 @@ class Gusts {
 
  private:
   struct Wave {
-    double omega, phase, size, sine, cosine;
+    double omega, phase, size;
   };
   /// sin(a) at a = phase - omega d, or its derivative by d.
   void sum(bool slope, std::span<const double> delay, std::span<double> out) const {
     double farthest = 0.0;
     for (const double d : delay) farthest = std::max(farthest, std::abs(d));
     std::fill(out.begin(), out.end(), slope ? 0.0 : 1.0);
-    for (const Wave& wave : waves_) {
-      if (wave.omega * farthest < kFarthestPhase) {
-        add_wave(slope ? -wave.omega * wave.cosine : wave.sine, slope ? wave.omega * wave.sine : wave.cosine,
-                 wave.omega, delay, out);
-        continue;
-      }
-      for (std::size_t i = 0; i < delay.size(); ++i) {
-        const double a = wave.phase - wave.omega * delay[i];
-        out[i] += wave.size * (slope ? -wave.omega * std::cos(a) : std::sin(a));
-      }
+    if (fastest_ * farthest < kFarthestPhase) {
+      add_waves(slope ? slopes_ : carried_, delay, out);
+    } else {
+      for (const Wave& wave : waves_)
+        for (std::size_t i = 0; i < delay.size(); ++i) {
+          const double a = wave.phase - wave.omega * delay[i];
+          out[i] += wave.size * (slope ? -wave.omega * std::cos(a) : std::sin(a));
+        }
     }
     for (double& f : out) f *= switched_;
   }
@@ -130,6 +134,8 @@ class Gusts {
   Vec3 mean_;
   double square_, switched_;
   std::vector<Wave> waves_;
+  std::vector<CarriedWave> carried_, slopes_;
+  double fastest_ = 0.0;
 };
 
 /// Edges that have a length, in blocks: sines of many at once cost a tenth of what they do one by one.
@@ -182,18 +188,6 @@ Mat3 Wind::velocity_gradient(const Vec3& x, double t) const {
 
 namespace {
 
-void expose(const StateView& state, std::size_t i, std::size_t k, ExposedEdges& to) {
-  const Vec3 edge = state.p[i + 1] - state.p[i];
-  const Vec3 v = 0.5 * (state.v[i] + state.v[i + 1]);
-  to.x[k] = edge.x();
-  to.y[k] = edge.y();
-  to.z[k] = edge.z();
-  to.vx[k] = v.x();
-  to.vy[k] = v.y();
-  to.vz[k] = v.z();
-  to.width[k] = state.width[i];
-}
-
 /// An edge in the air, as derivatives need it: its unit vector and length, the flow across and along it, and
 /// what makes the drag of half of it.
 struct Exposed {
@@ -243,21 +237,23 @@ Exposed exposed_at(const StateView& state, std::size_t i, const Vec3& air, const
 
 }  // namespace
 
+/// Between two rods there is an edge without a width.
 void Wind::add(const StateView& state, const Loads& loads) const {
   const Gusts gusts(options_, waves_, state.time);
   const double half = -0.25 * options_.air_density;
   const DragPerLength by{options_.mean, half * options_.normal_drag, half * options_.tangential_drag};
-  ExposedEdges exposed;
-  in_blocks(state, gusts, [&](std::span<const std::size_t> edges, std::span<const double> delay) {
-    gusts.find(delay, std::span(exposed.air).first(edges.size()));
-    for (std::size_t k = 0; k < edges.size(); ++k) expose(state, edges[k], k, exposed);
-    drag(by, edges.size(), exposed);
-    for (std::size_t k = 0; k < edges.size(); ++k) {
-      const Vec3 force(exposed.x[k], exposed.y[k], exposed.z[k]);
-      loads.force[edges[k]] += force;
-      loads.force[edges[k] + 1] += force;
-    }
-  });
+  ExposedEdges edges;
+  auto rod = state.rods.begin();
+  for (std::size_t first = 0; first + 1 < state.p.size(); first += ExposedEdges::kMost) {
+    const std::size_t count = std::min(ExposedEdges::kMost, state.p.size() - 1 - first);
+    expose(state.p.subspan(first, count + 1), state.v.subspan(first, count + 1),
+           state.width.subspan(first, count), gusts.delays(), edges);
+    for (; rod != state.rods.end() && rod->first + rod->count <= first + count; ++rod)
+      edges.width[rod->first + rod->count - 1 - first] = 0.0;
+    gusts.find(std::span(edges.delay).first(count), std::span(edges.air).first(count));
+    drag(by, count, edges);
+    put_drag(edges, loads.force.subspan(first, count + 1));
+  }
 }
 
 Couplings Wind::couplings(std::span<const NodeRange>) const {

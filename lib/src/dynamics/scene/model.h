@@ -145,6 +145,7 @@ struct System::Model {
   };
   std::vector<Acting> acting;
   bool loaded = false;  ///< there are such
+  bool turned = false;  ///< some of them look at frames, or turn them
   bool damped = false;  ///< some rod has mass damping
 
   std::shared_ptr<const Tiles>
