@@ -88,6 +88,39 @@ TEST(WindDerivatives, MatchDifferences) {
     EXPECT_LT(error_of(Wind(wind), StirredState(random)), 1e-7) << trial;
 }
 
+/// More edges than are done at a time have the derivatives that each has alone.
+TEST(WindDerivatives, AreThoseOfEachEdge) {
+  Random random(4);
+  WindOptions options;
+  options.mean = Vec3(3, -1, 0.5);
+  options.gust = 0.6;
+  const Wind wind(options);
+  constexpr std::size_t kNodes = 300;
+  std::vector<Vec3> p, v, t(kNodes, Vec3::UnitX());
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    p.push_back(Vec3(0.01 * static_cast<double>(i), 0, 0) + random.in_cube(0.003));
+    v.push_back(random.in_cube(2.0));
+  }
+  const std::vector<double> ones(kNodes, 1.0);
+  const auto derivatives = [&](std::size_t first, std::size_t count, Gathered& to) {
+    const std::vector<NodeRange> rods{{0, count}};
+    const StateView view{
+        0.4, Points(p).subspan(first, count), Points(v).subspan(first, count), t, ones, ones, ones, rods};
+    wind.couplings(rods).derivatives()(view, to);
+  };
+  Gathered all(kNodes), alone(2);
+  derivatives(0, kNodes, all);
+  for (std::size_t i = 0; i + 1 < kNodes; ++i) {
+    alone.by_p.setZero();
+    alone.by_v.setZero();
+    derivatives(i, 2, alone);
+    const auto at = 3 * static_cast<Eigen::Index>(i);
+    EXPECT_LT((all.by_p.block<3, 3>(at + 3, at) - alone.by_p.block<3, 3>(3, 0)).norm(), 1e-12) << i;
+    EXPECT_LT((all.by_v.block<3, 3>(at + 3, at) - alone.by_v.block<3, 3>(3, 0)).norm(), 1e-12) << i;
+  }
+  EXPECT_GT(all.by_p.norm(), 1e-3);
+}
+
 TEST(WindDerivatives, AreNothingInStillFlowAlongTheEdges) {
   Random random(18);
   StirredState state(random);

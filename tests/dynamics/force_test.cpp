@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <tendril/dynamics/check_force.h>
 #include <tendril/dynamics/forces.h>
 #include <tendril/dynamics/simulation.h>
 
+#include <limits>
 #include <numbers>
 
 #include "support/random.h"
@@ -97,8 +99,9 @@ TEST(Wind, CarriesItsWavesAlong) {
 }
 
 /// Edges more than a block has, in rods of any length, by the air at their middles.
-TEST(Wind, DragsEveryEdgeByTheAirAtItsMiddle) {
-  const WindOptions options = gusty(8);
+/// \param size  of all
+void drags_every_edge(double size, int waves) {
+  const WindOptions options = gusty(waves);
   const Wind wind(options);
   test::Random random(6);
   std::vector<NodeRange> rods;
@@ -106,7 +109,7 @@ TEST(Wind, DragsEveryEdgeByTheAirAtItsMiddle) {
   for (const std::size_t count : {1, 2, 97, 3, 200, 31}) {
     rods.push_back({p.size(), count});
     for (std::size_t i = 0; i < count; ++i) {
-      p.push_back(Vec3(0.1 * static_cast<double>(i), 0, 0) + random.in_cube(0.05));
+      p.push_back(size * (Vec3(0.1 * static_cast<double>(i), 0, 0) + random.in_cube(0.05)));
       v.push_back(random.in_cube(2.0));
       t.push_back(Vec3::UnitX());
     }
@@ -128,7 +131,110 @@ TEST(Wind, DragsEveryEdgeByTheAirAtItsMiddle) {
       expected[i] += 0.5 * drag;
       expected[i + 1] += 0.5 * drag;
     }
-  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT((force[i] - expected[i]).norm(), 1e-14) << i;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    EXPECT_LT((force[i] - expected[i]).norm(), 1e-14 * std::max(size, 1.0) * (1.0 + size))
+        << i << " " << size << " " << waves;
+}
+
+/// Small, the air at all of a block is one series; large, a wave turns many times.
+TEST(Wind, DragsEveryEdgeByTheAirAtItsMiddle) {
+  for (const double size : {1e-3, 0.03, 0.2, 0.5, 1.0, 30.0, 1e7})
+    for (const int waves : {0, 1, 8, 19}) drags_every_edge(size, waves);
+}
+
+/// Adds nothing, and notes what it is shown.
+struct Onlooker : Force {
+  explicit Onlooker(bool frames) : looks_at_frames(frames) {}
+  void add(const StateView& state, const Loads& loads) const override {
+    shown = {state.p.size(),    state.t.size(),    state.m.size(),
+             state.spin.size(), state.turn.size(), loads.torque.size()};
+  }
+  Couplings couplings(std::span<const NodeRange>) const override { return Couplings::none(); }
+  bool acts_on_frames() const override { return looks_at_frames; }
+  bool looks_at_frames;
+  mutable std::array<std::size_t, 6> shown{};
+};
+
+/// A tree of viscous rods that are bent and curved, with a hinge, a swivel and a rod without twist beside it.
+Scene windy_tree(std::shared_ptr<const Force> also) {
+  test::Random random(8);
+  Scene scene;
+  scene.rods.push_back(test::uneven_rod(random, 12));
+  scene.rods[0].viscosity = 1e-3;
+  for (const std::size_t node : {4u, 4u, 11u}) {
+    Rod child = test::uneven_rod(random, 7);
+    const Vec3 by = scene.rods[0].p[node] - child.p[0];
+    for (auto* points : {&child.p, &child.q})
+      for (Vec3& point : *points) point += by;
+    scene.rods.push_back(std::move(child));
+    scene.joints.push_back({.parent = 0, .node = node, .child = scene.rods.size() - 1});
+  }
+  scene.rods.push_back(test::straight_rod(9, 1e5, 0.02));
+  scene.rods.push_back(test::straight_rod(9, 1e5, 0.02));
+  scene.anchors.push_back({.rod = 0, .node = 0, .swivels = true});
+  scene.anchors.push_back({.rod = 4, .node = 0});
+  scene.anchors.push_back({.rod = 5, .node = 3, .holds_frame = false});
+  scene.forces = {std::make_shared<Gravity>(Vec3(0, 0, -9.81)), std::make_shared<Wind>(gusty(8)),
+                  std::make_shared<PullTowards>(0, 5, Vec3(1, 1, 1), 3.0), std::move(also)};
+  return scene;
+}
+
+TEST(Frames, AreLeftOutWhereNoForceActsOnThem) {
+  const auto aside = std::make_shared<Onlooker>(false), close = std::make_shared<Onlooker>(true);
+  const System without(windy_tree(aside)), with(windy_tree(close));
+  const auto work = without.make_workspace(), work_with = with.make_workspace();
+  State state = without.rest_state();
+  test::Random random(9);
+  for (Eigen::Index i = 0; i < state.y.size(); ++i) state.y[i] += 0.02 * random.uniform(-1.0, 1.0);
+  Eigen::VectorXd rates, rates_with;
+  ASSERT_TRUE(without.derivative(state, 0.7, state.y, rates, *work).ok());
+  ASSERT_TRUE(with.derivative(state, 0.7, state.y, rates_with, *work_with).ok());
+  EXPECT_LE((rates - rates_with).cwiseAbs().maxCoeff(), 1e-14 * rates_with.cwiseAbs().maxCoeff());
+  const std::size_t n = without.node_count();
+  EXPECT_EQ(aside->shown, (std::array<std::size_t, 6>{n, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(close->shown, (std::array<std::size_t, 6>{n, n, n, n, n, n}));
+  const Energies a = without.energies(state, *work), b = with.energies(state, *work_with);
+  EXPECT_EQ(a.potential, b.potential);
+  EXPECT_NEAR(a.elastic, b.elastic, 1e-14 * b.elastic);
+  EXPECT_NEAR(a.kinetic, b.kinetic, 1e-14 * b.kinetic);
+  state.y[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(without.derivative(state, 0.7, state.y, rates, *work).outcome, Evaluation::Outcome::not_finite);
+}
+
+/// Implicit steps ask forces in other ways.
+TEST(Frames, AreMissedByNoImplicitStep) {
+  const System without(windy_tree(std::make_shared<Onlooker>(false)));
+  const System with(windy_tree(std::make_shared<Onlooker>(true)));
+  const auto end = [](const System& system) {
+    Simulation simulation(system, system.rest_state(), {.method = Method::rodas, .tolerance = 1e-4});
+    const Report report = simulation.run(0.2);
+    EXPECT_EQ(report.stop, Stop::finished) << report.reason;
+    return simulation.state().y;
+  };
+  const Eigen::VectorXd a = end(without), b = end(with);
+  EXPECT_LE((a - b).head(3 * static_cast<Eigen::Index>(without.node_count())).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Frames, AreLeftAloneByWhoSaysSo) {
+  const System system(windy_tree(std::make_shared<Onlooker>(true)));
+  struct Turner : Onlooker {
+    Turner() : Onlooker(false) {}
+    void add(const StateView&, const Loads& loads) const override { loads.torque[3] += Vec3::UnitX(); }
+  };
+  struct Peeper : Onlooker {
+    Peeper() : Onlooker(false) {}
+    void add(const StateView& state, const Loads& loads) const override { loads.force[3] += state.t[3]; }
+  };
+  std::vector<Vec3> p = test::straight(5, 1.0), v(6, Vec3::UnitZ()), t(6, Vec3::UnitX());
+  const std::vector<double> ones(6, 1.0);
+  const std::vector<NodeRange> rods{{0, 6}};
+  const StateView view{0.0, p, v, t, ones, ones, ones, rods};
+  EXPECT_FALSE(check_force(Turner(), view).frames);
+  EXPECT_FALSE(check_force(Peeper(), view).frames);
+  for (const auto& force : system.scene().forces) EXPECT_TRUE(check_force(*force, view).frames);
+  EXPECT_TRUE(
+      check_force(PointLoad(PointLoad::Kind::torque, 0, 2, Vec3::UnitX(), Signal::constant(1.0)), view)
+          .frames);
 }
 
 }  // namespace

@@ -2,47 +2,54 @@
 
 #include <cmath>
 
-#include "dynamics/vector/lanes.h"
+#include "dynamics/vector/column_access.h"
 #include "kinematics.h"
 
 namespace tendril {
 namespace {
 
+using lanes::NodeAxes;
+using lanes::Reader;
+using lanes::V3;
+
 /// What the springs between a held frame and one edge give.
 struct Given {
-  Vec3 edge = Vec3::Zero(), tangent = Vec3::Zero();
+  V3 edge{}, tangent{};
   double spin = 0.0, energy = 0.0, heat = 0.0;
 };
 
-/// A held frame, and how it turns where springs are viscous.
-struct Held {
-  std::size_t node;
-  Frame frame;
-  Vec3 t_rate;
-  double spin;
-  bool viscous;
-};
+TENDRIL_INLINE NodeAxes axes_at(std::size_t i, const Kinematics& kin) {
+  const V3 m = Reader(kin.frame.y).at(i), t = Reader(kin.frame.z).at(i);
+  return {lanes::cross(m, t), m, t};
+}
+
+TENDRIL_INLINE void add_to(std::size_t i, const V3& v, Columns3& to) {
+  to.x[i] += v.x;
+  to.y[i] += v.y;
+  to.z[i] += v.z;
+}
 
 /// The springs of the edge at `side` of a held node (0 before, 1 after), which makes these angles.
-Given pull_at(const Model& model, const Held& at, std::size_t side, const EdgeAngles& by,
-              const Kinematics& kin, const Gradient& grad) {
-  const std::size_t i = at.node;
+template <bool Viscous>
+TENDRIL_INLINE Given pull_at(const Model& model, std::size_t i, const NodeAxes& f, std::size_t side,
+                             const EdgeAngles& by, const Kinematics& kin, const Gradient& grad) {
   const std::size_t edge = i + side - 1;
   const std::size_t end = 2 * edge + 1 - side;
-  const Frame& f = at.frame;
-  const Vec3 e = kin.e[edge];
+  const V3 e = Reader(kin.e).at(edge);
   const double l = by.l - model.rest_l[end];
   const double m = by.m - model.rest_m[end];
   double fl = model.bend_l[i] * l;
   double fm = model.bend_m[i] * m;
   Given given;
   given.energy = 0.5 * (fl * l + fm * m);
-  const Vec3 way = grad.given[i];
-  fl -= (model.bend_l[i] + model.bend_t[i]) * way.x();
-  fm -= (model.bend_m[i] + model.bend_t[i]) * way.y();
-  if (at.viscous) {
+  const V3 way = Reader(grad.given).at(i);
+  fl -= (model.bend_l[i] + model.bend_t[i]) * way.x;
+  fm -= (model.bend_m[i] + model.bend_t[i]) * way.y;
+  if constexpr (Viscous) {
     const double viscosity = model.viscosity[edge];
-    const DeviationRates rate = deviation_rates(f, by, kin.rate.e_rate[edge], at.t_rate, at.spin);
+    const V3 t_rate = lanes::cross(Reader(kin.rate.turning).at(i), f.t);
+    const DeviationRates rate =
+        lanes::deviation_rates(f, by, Reader(kin.rate.e_rate).at(edge), t_rate, kin.spin[i]);
     given.heat = viscosity * (model.bend_l[i] * rate.l * rate.l + model.bend_m[i] * rate.m * rate.m);
     fl += viscosity * model.bend_l[i] * rate.l;
     fm += viscosity * model.bend_m[i] * rate.m;
@@ -58,11 +65,38 @@ Given pull_at(const Model& model, const Held& at, std::size_t side, const EdgeAn
   double g = model.bend_t[i] * by.ratio;
   if (rest > 0.0) g = by.st > 1e-12 ? model.bend_t[i] * third / by.st : 0.0;
   g += both;
-  const Vec3 across = gl * f.x + gm * f.y;
-  given.edge = across - g * f.z;
-  given.tangent = -by.z * across - g * e;
+  const V3 across = gl * f.l + gm * f.m;
+  given.edge = across - g * f.t;
+  given.tangent = (-by.z) * across - g * e;
   given.spin = gl * by.y - gm * by.x;
   return given;
+}
+
+/// Adds what the springs of both edges give.
+/// \param after  angles of the edge after the node, where they are known; else null
+template <bool Viscous>
+TENDRIL_INLINE double bend_at(const Model& model, std::size_t node, const EdgeAngles* after,
+                              const Kinematics& kin, Gradient& grad, double& heat) {
+  const NodeAxes frame = axes_at(node, kin);
+  Given sum;
+  if (model.has_before(node)) {
+    const EdgeAngles by = lanes::edge_angles(Reader(kin.e).at(node - 1), frame);
+    sum = pull_at<Viscous>(model, node, frame, 0, by, kin, grad);
+    lanes::Writer(grad.before).put(node, sum.edge);
+  }
+  if (model.has_after(node)) {
+    const EdgeAngles by = after ? *after : lanes::edge_angles(Reader(kin.e).at(node), frame);
+    const Given given = pull_at<Viscous>(model, node, frame, 1, by, kin, grad);
+    lanes::Writer(grad.after).put(node, given.edge);
+    sum.tangent = sum.tangent + given.tangent;
+    sum.spin += given.spin;
+    sum.energy += given.energy;
+    sum.heat += given.heat;
+  }
+  add_to(node, sum.tangent, grad.tangent);
+  grad.spin[node] += sum.spin;
+  heat += sum.heat;
+  return sum.energy;
 }
 
 /// Whether the edge from node i on does so against the frame of a node at one of its ends.
@@ -90,23 +124,11 @@ bool past_half_turn(const Model& model, const State& reference, std::size_t node
          (model.has_after(node) && turned_through(reference, node, node, kin));
 }
 
-double bend_at_held_frame(const Model& model, std::size_t node, bool viscous, const EdgeAngles* after,
-                          const Kinematics& kin, Gradient& grad, double& heat) {
-  const Held at{node, kin.frame[node], viscous ? kin.t_rate(node) : Vec3(Vec3::Zero()),
-                viscous ? kin.spin[node] : 0.0, viscous};
-  const auto pull = [&](std::size_t side, const EdgeAngles& by, Columns3& to) {
-    const Given given = pull_at(model, at, side, by, kin, grad);
-    to.set(node, given.edge);
-    grad.tangent.add(node, given.tangent);
-    grad.spin[node] += given.spin;
-    heat += given.heat;
-    return given.energy;
-  };
-  double energy = 0.0;
-  if (model.has_before(node)) energy += pull(0, edge_angles(kin.e[node - 1], at.frame), grad.before);
-  if (model.has_after(node))
-    energy += pull(1, after ? *after : edge_angles(kin.e[node], at.frame), grad.after);
-  return energy;
+TENDRIL_LANES double bend_at_held_frame(const Model& model, std::size_t node, bool viscous,
+                                        const EdgeAngles* after, const Kinematics& kin, Gradient& grad,
+                                        double& heat) {
+  return viscous ? bend_at<true>(model, node, after, kin, grad, heat)
+                 : bend_at<false>(model, node, after, kin, grad, heat);
 }
 
 double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics& kin, Gradient& grad) {
@@ -134,31 +156,38 @@ double bend_at_held_hinge(const Model& model, std::size_t node, const Kinematics
   return energy;
 }
 
-double give_way_at_hubs(const Model& model, bool viscous, const Kinematics& kin, Gradient& grad) {
+TENDRIL_LANES double give_way_at_hubs(const Model& model, bool viscous, const Kinematics& kin,
+                                      Gradient& grad) {
   const auto strain = [&](std::size_t i) {
     if (viscous && model.viscosity[i] > 0.0) return grad.twist_strain[i];
     return model.twist[i] > 0.0 ? grad.twist_torque[i] / model.twist[i] : 0.0;
   };
+  const Reader e(kin.e), t(kin.frame.z);
   double energy = 0.0;
   std::size_t k = 0;
   for (const Model::Hub& hub : model.hubs) {
-    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    double ml = 0.0, mm = 0.0;  // moment
     for (const Model::Hub::Child& child : hub.children) {
       const std::size_t i = child.root;
-      const EdgeAngles& at = grad.child_edges[k++] = edge_angles(kin.e[i], kin.frame[i]);
-      moment += child.moment * Vec3(at.l, at.m, strain(i));
+      const EdgeAngles& at = grad.child_edges[k++] = lanes::edge_angles(e.at(i), axes_at(i, kin));
+      const double s = strain(i);
+      const auto& by = child.moment;
+      ml += by(0, 0) * at.l + by(0, 1) * at.m + by(0, 2) * s;
+      mm += by(1, 0) * at.l + by(1, 1) * at.m + by(1, 2) * s;
     }
-    const Eigen::Vector2d omega = hub.give * moment;
-    energy -= 0.5 * moment.dot(omega);
+    const double ol = hub.give(0, 0) * ml + hub.give(0, 1) * mm;  // omega
+    const double om = hub.give(1, 0) * ml + hub.give(1, 1) * mm;
+    energy -= 0.5 * (ml * ol + mm * om);
     for (const Model::Hub::Child& child : hub.children) {
       const std::size_t i = child.root;
-      const Vec3 way = child.turn * omega;
-      grad.given.set(i, way);
-      const double torque = model.twist[i] * way.z();
-      const Vec3 ta = kin.frame.z[i];
-      const Vec3 tb = kin.frame.z[i + 1];
+      const auto& by = child.turn;
+      const V3 way{by(0, 0) * ol + by(0, 1) * om, by(1, 0) * ol + by(1, 1) * om,
+                   by(2, 0) * ol + by(2, 1) * om};
+      lanes::Writer(grad.given).put(i, way);
+      const double torque = model.twist[i] * way.z;
+      const V3 ta = t.at(i), tb = t.at(i + 1);
       grad.twist_torque[i] -= torque;
-      grad.twist_tangent.add(i, -torque / (1.0 + ta.dot(tb)) * ta.cross(tb));
+      add_to(i, (-torque / (1.0 + lanes::dot(ta, tb))) * lanes::cross(ta, tb), grad.twist_tangent);
     }
   }
   return energy;

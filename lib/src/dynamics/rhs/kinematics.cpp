@@ -167,18 +167,23 @@ void set_nodes(const Model& model, double t, const Eigen::VectorXd& y, Kinematic
 }
 
 /// The root of a child rod takes its frame from the node it is attached to, which is known by then.
-void take_attachment(const Model::Attachment& attached, bool rates, Kinematics& kin) {
-  const std::size_t i = attached.root;
-  const Frame f = kin.frame[attached.parent];
-  const auto outside = [&](const Vec3& v) { return Vec3(v.x() * f.x + v.y() * f.y + v.z() * f.z); };
-  const Frame frame{outside(attached.rest.x), outside(attached.rest.y), outside(attached.rest.z)};
-  kin.frame.set(i, frame);
+TENDRIL_INLINE void take_attachment(const Model::Attachment& attached, bool rates, Kinematics& kin) {
+  const std::size_t i = attached.root, at = attached.parent;
+  const V3 m = Reader(kin.frame.y).at(at), t = Reader(kin.frame.z).at(at), l = lanes::cross(m, t);
+  const Vec3 &y = attached.rest.y, &z = attached.rest.z;
+  const V3 tangent = z.x() * l + z.y() * m + z.z() * t;
+  Writer(kin.frame.y).put(i, y.x() * l + y.y() * m + y.z() * t);
+  Writer(kin.frame.z).put(i, tangent);
   kin.inverse_bisector[i] = 0.0;
   kin.rate.connection[i] = 0.0;
   if (!rates) return;
-  const Vec3 turning = Vec3(kin.rate.turning[attached.parent]) + kin.spin[attached.parent] * f.z;
-  kin.spin[i] = turning.dot(frame.z);
-  kin.rate.turning.set(i, turning - kin.spin[i] * frame.z);
+  const V3 turning = Reader(kin.rate.turning).at(at) + kin.spin[at] * t;
+  const double spin = lanes::dot(turning, tangent);
+  kin.spin[i] = spin;
+  Writer(kin.rate.turning).put(i, turning - spin * tangent);
+}
+TENDRIL_LANES void take_attachments(const Model& model, bool rates, Kinematics& kin) {
+  for (const Model::Attachment& attached : model.attachments) take_attachment(attached, rates, kin);
 }
 
 void take_held_frames(const Model& model, Kinematics& kin) {
@@ -288,8 +293,7 @@ Evaluation take_frames(const Model& model, const State& reference, const Eigen::
   for (std::size_t k = 0; k < model.swivels.size(); ++k)
     if (!take_swivel(model, reference, y, model.swivels[k], kin.swivel_spin[k], kin))
       return {Outcome::turned_too_far, model.swivels[k].node};
-  for (const Model::Attachment& attached : model.attachments)
-    take_attachment(attached, what != Motion::positions, kin);
+  take_attachments(model, what != Motion::positions, kin);
   return {};
 }
 

@@ -38,14 +38,20 @@ TENDRIL_LANES void through_frames(std::size_t first, std::size_t end, const Kine
   through_edges<true>(first, end, kin, grad, pull);
 }
 
-/// What springs at a held frame give the edges at its node.
-void through_held_edges(std::size_t node, const Kinematics& kin, const Gradient& grad, Pull& pull) {
-  const auto add = [&](std::size_t i, const Vec3& g) {
-    const Vec3 e = kin.e[i];
-    pull.edge_force.add(i, kin.inverse_length[i] * (g - e.dot(g) * e));
-  };
-  add(node - 1, grad.before[node]);
-  add(node, grad.after[node]);
+TENDRIL_INLINE void add_across(std::size_t i, const V3& g, const Kinematics& kin, Columns3& to) {
+  const V3 e = Reader(kin.e).at(i);
+  const V3 across = kin.inverse_length[i] * (g - lanes::dot(e, g) * e);
+  to.x[i] += across.x;
+  to.y[i] += across.y;
+  to.z[i] += across.z;
+}
+/// What springs at held frames give the edges at their nodes.
+TENDRIL_LANES void through_held_edges(const std::vector<std::size_t>& held, const Kinematics& kin,
+                                      const Gradient& grad, Pull& pull) {
+  for (const std::size_t node : held) {
+    add_across(node - 1, Reader(grad.before).at(node), kin, pull.edge_force);
+    add_across(node, Reader(grad.after).at(node), kin, pull.edge_force);
+  }
 }
 
 TENDRIL_LANES void to_masses(std::size_t nodes, Pull& pull) {
@@ -55,22 +61,37 @@ TENDRIL_LANES void to_masses(std::size_t nodes, Pull& pull) {
   for (std::size_t i = 0; i < nodes; ++i) to.put(i, from.at(i) - from.at(i - 1));
 }
 
+TENDRIL_LANES void add_loads(std::size_t nodes, const double* __restrict load, Pull& pull) {
+  const Reader from(pull.force);
+  const Writer to(pull.force);
+  TENDRIL_LOOP
+  for (std::size_t i = 0; i < nodes; ++i)
+    to.put(i, from.at(i) + V3{load[3 * i], load[3 * i + 1], load[3 * i + 2]});
+}
+
 /// What the root of a child rod feels goes to the node it is attached to: the force, and the torque T by
 /// phi.T = g_t.(phi x t_0) + g_s phi.t_0 for the turn phi = t x dt + ds t of the parent's frame.
-void pass_on_torque(const Model::Attachment& attached, const Kinematics& kin, Gradient& grad,
-                    LoadColumns& loads) {
+TENDRIL_INLINE void pass_on_torque(const Model::Attachment& attached, const Kinematics& kin, Gradient& grad,
+                                   LoadColumns& loads) {
   if (!attached.reaction) return;
-  const std::size_t i = attached.root;
-  const Vec3 t0 = kin.frame.z[i];
-  const Vec3 t = kin.frame.z[attached.parent];
+  const std::size_t i = attached.root, at = attached.parent;
+  const V3 t0 = Reader(kin.frame.z).at(i), t = Reader(kin.frame.z).at(at);
   double along = grad.spin[i];
-  if (!loads.torque.empty()) along -= loads.torque[i].dot(t0);
-  const Vec3 torque = t0.cross(grad.tangent[i]) + along * t0;
-  grad.tangent.add(attached.parent, torque.cross(t));
-  grad.spin[attached.parent] += torque.dot(t);
-  grad.tangent.set(i, Vec3::Zero());
+  if (!loads.torque.empty()) {
+    const double* load = loads.torque[i].data();
+    along -= lanes::dot(V3{load[0], load[1], load[2]}, t0);
+    loads.torque[i].setZero();
+  }
+  const V3 torque = lanes::cross(t0, Reader(grad.tangent).at(i)) + along * t0;
+  Writer(grad.tangent).put(at, Reader(grad.tangent).at(at) + lanes::cross(torque, t));
+  Writer(grad.tangent).put(i, V3{});
+  grad.spin[at] += lanes::dot(torque, t);
   grad.spin[i] = 0.0;
-  if (!loads.torque.empty()) loads.torque[i].setZero();
+}
+TENDRIL_LANES void pass_on_torques(const Model& model, const Kinematics& kin, Gradient& grad,
+                                   LoadColumns& loads) {
+  for (std::size_t k = model.attachments.size(); k-- > 0;)
+    pass_on_torque(model.attachments[k], kin, grad, loads);
 }
 
 /// What turns a swivel about its axis stands for the gradient by its spin, from which the torque of loads is
@@ -96,20 +117,18 @@ void pass_on_force(const Model::Attachment& attached, Pull& pull) {
 void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, LoadColumns& loads,
                    Pull& pull) {
   assert(grad.made.fits(kin) && (!model.loaded || loads.made.fits(kin)));
-  for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
-    pass_on_torque(*attached, kin, grad, loads);
+  pass_on_torques(model, kin, grad, loads);
   if (!model.swivels.empty()) turn_swivels(model, kin, grad, loads);
   for (const Segment& s : model.segments)
     (s.twist || model.turned ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
-  for (const auto* held : {&model.bending.held, &model.bending.held_hinges})
-    for (const std::size_t node : *held) through_held_edges(node, kin, grad, pull);
+  through_held_edges(model.bending.held, kin, grad, pull);
+  through_held_edges(model.bending.held_hinges, kin, grad, pull);
 }
 
 void pull_back(const Model& model, const Kinematics& kin, Gradient& grad, LoadColumns& loads, Pull& pull) {
   pull_on_edges(model, kin, grad, loads, pull);
   to_masses(model.nodes, pull);
-  if (model.loaded)
-    for (std::size_t i = 0; i < model.nodes; ++i) pull.force.add(i, loads.load[i]);
+  if (model.loaded && model.nodes > 0) add_loads(model.nodes, loads.load.front().data(), pull);
   for (auto attached = model.attachments.rbegin(); attached != model.attachments.rend(); ++attached)
     pass_on_force(*attached, pull);
 }

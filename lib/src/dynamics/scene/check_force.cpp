@@ -21,6 +21,10 @@ struct Movable {
         turn(view.turn.begin(), view.turn.end()),
         spin(view.spin.begin(), view.spin.end()),
         bodies(view.bodies.begin(), view.bodies.end()) {
+    // Frames that the view does not have are any.
+    t.resize(p.size(), Vec3::UnitX());
+    for (Vectors* vectors : {&m, &turn}) vectors->resize(p.size(), Vec3::Zero());
+    spin.resize(p.size(), 0.0);
     seen.p = p;
     seen.v = v;
     seen.t = t;
@@ -87,6 +91,7 @@ class Check {
 
   ForceCheck run() {
     gather();
+    note_torques(base_);
     compare_local(base_);
     for (std::size_t j = 0; j < at_.p.size(); ++j) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -95,8 +100,11 @@ class Check {
         note_frame(j, Vec3::Unit(axis));
       }
       at_.spin[j] += step_;
-      note(j, look());
+      note_turned(j, look());
       at_.spin[j] -= step_;
+      at_.turn[j] += step_ * Vec3::Ones();
+      note_turned(j, look());
+      at_.turn[j] -= step_ * Vec3::Ones();
       if (force_.has_energy()) compare_energy(j);
     }
     for (std::size_t b = 0; b < at_.bodies.size(); ++b) compare_body(b);
@@ -158,6 +166,18 @@ class Check {
   void note(std::size_t j, const Load& moved) {
     for (std::size_t i = 0; i < at_.indices(); ++i)
       if (!named(i, j) && moved.differs(i, base_)) found_.emplace(i, j);
+  }
+
+  /// As the frame of a node is moved.
+  void note_turned(std::size_t j, const Load& moved) {
+    note(j, moved);
+    for (std::size_t i = 0; i < at_.indices() && !force_.acts_on_frames(); ++i)
+      if (moved.differs(i, base_)) out_.frames = false;
+    note_torques(moved);
+  }
+  void note_torques(const Load& load) {
+    if (force_.acts_on_frames()) return;
+    for (const Vec3& torque : load.torque) out_.frames = out_.frames && torque.isZero(0.0);
   }
 
   /// The loads as the state is moved.
@@ -259,7 +279,7 @@ class Check {
   }
 
   void note_frame(std::size_t j, const Vec3& axis) {
-    turned(j, axis, step_, [&] { note(j, look()); });
+    turned(j, axis, step_, [&] { note_turned(j, look()); });
   }
 
   void compare_energy(std::size_t j) {

@@ -87,12 +87,10 @@ class Gusts {
       : mean_(options.mean), square_(options.mean.squaredNorm()), switched_(options.switched(t)) {
     if (!(square_ > 0.0) || options.gust == 0.0) return;
     const double size = options.gust / std::sqrt(static_cast<double>(waves.size()));
+    carried_.reserve(waves.size());
     for (const auto& wave : waves) {
       const double omega = 2 * std::numbers::pi * wave.frequency, phase = omega * t + wave.phase;
-      waves_.push_back({omega, phase, size});
       carried_.push_back({size * std::sin(phase), size * std::cos(phase), omega});
-      slopes_.push_back({-omega * carried_.back().c, omega * carried_.back().s, omega});
-      fastest_ = std::max(fastest_, omega);
     }
   }
 
@@ -102,40 +100,28 @@ class Gusts {
   /// How long after the origin the air passes a point.
   double delay(const Vec3& x) const { return square_ > 0.0 ? x.dot(mean_) / square_ : 0.0; }
   /// `factor` of each delay.
-  void find(std::span<const double> delay, std::span<double> factor) const { sum(false, delay, factor); }
+  void find(std::span<const double> delay, std::span<double> factor) const {
+    std::fill(factor.begin(), factor.end(), 1.0);
+    add_waves(carried_, delay, factor);
+    for (double& f : factor) f *= switched_;
+  }
   /// And its derivatives by delays.
-  void find_slopes(std::span<const double> delay, std::span<double> slope) const { sum(true, delay, slope); }
+  void find_slopes(std::span<const double> delay, std::span<double> slope) const {
+    std::vector<CarriedWave> by_delay;
+    for (const auto& [s, c, omega] : carried_) by_delay.push_back({-omega * c, omega * s, omega});
+    std::fill(slope.begin(), slope.end(), 0.0);
+    add_waves(by_delay, delay, slope);
+    for (double& d : slope) d *= switched_;
+  }
   /// Of the air's velocity by place, of the slope there.
   Mat3 gradient(double slope) const {
     return square_ > 0.0 ? Mat3((slope / square_) * mean_ * mean_.transpose()) : Mat3::Zero();
   }
 
  private:
-  struct Wave {
-    double omega, phase, size;
-  };
-  /// sin(a) at a = phase - omega d, or its derivative by d.
-  void sum(bool slope, std::span<const double> delay, std::span<double> out) const {
-    double farthest = 0.0;
-    for (const double d : delay) farthest = std::max(farthest, std::abs(d));
-    std::fill(out.begin(), out.end(), slope ? 0.0 : 1.0);
-    if (fastest_ * farthest < kFarthestPhase) {
-      add_waves(slope ? slopes_ : carried_, delay, out);
-    } else {
-      for (const Wave& wave : waves_)
-        for (std::size_t i = 0; i < delay.size(); ++i) {
-          const double a = wave.phase - wave.omega * delay[i];
-          out[i] += wave.size * (slope ? -wave.omega * std::cos(a) : std::sin(a));
-        }
-    }
-    for (double& f : out) f *= switched_;
-  }
-
   Vec3 mean_;
   double square_, switched_;
-  std::vector<Wave> waves_;
-  std::vector<CarriedWave> carried_, slopes_;
-  double fastest_ = 0.0;
+  std::vector<CarriedWave> carried_;
 };
 
 /// Edges that have a length, in blocks: sines of many at once cost a tenth of what they do one by one.

@@ -8,6 +8,7 @@
 
 #include "access.h"
 #include "dynamics/vector/columns.h"
+#include "dynamics/vector/edge_angles.h"
 #include "rigid_body.h"
 
 namespace tendril {
@@ -222,25 +223,8 @@ std::string name_of_index(const Model& model, std::size_t index);
 /// The name of a force of the scene in what is refused.
 std::string name_of_force(std::size_t index);
 
-/// Angles of a unit edge against a node frame, as the bending springs see them: the turn from the frame's
-/// tangent to the edge, phi up to half a turn, split into those towards l and m, l = r x and m = r y with
-/// r = phi / sin(phi).
-struct EdgeAngles {
-  double x, y, z;  ///< components e.l, e.m, e.t
-  double st;       ///< sine of the angle to t, from x and y, never from 1 - z^2
-  double l, m, t;  ///< deviations towards l and m, angle to t
-  double ratio;    ///< r = t / st
-  double rise;     ///< dr = rise (x dx + y dy) - dz, with rise = (z - r) / st^2
-};
+/// The angles of a unit edge against a node frame.
 EdgeAngles edge_angles(const Vec3& e, const Frame& frame);
-
-/// How fast the two deviations change.
-struct DeviationRates {
-  double l, m;
-};
-/// \param t_rate, spin  of the frame, which turns by t' and about t
-DeviationRates deviation_rates(const Frame& frame, const EdgeAngles& at, const Vec3& e_rate,
-                               const Vec3& t_rate, double spin);
 
 /// Signed angle about `after.z` from before.y, carried to after.z by the smallest rotation, to after.y; in
 /// (-pi, pi].

@@ -15,40 +15,9 @@ constexpr double kStraight = 1e-9;  // rest angle below which a node counts as s
 
 }  // namespace
 
-/// The deviation of an edge from the tangent is one turn by t across it, of which l and m are the
-/// components: t (x, y) / sin t. So it is a true angle up to half a turn, where asin of the components
-/// would turn back at a quarter. Near the tangent the ratio t / sin t comes from a series, where the
-/// quotient is 0 / 0.
 EdgeAngles edge_angles(const Vec3& e, const Frame& frame) {
-  EdgeAngles a{};
-  a.x = e.dot(frame.x);
-  a.y = e.dot(frame.y);
-  a.z = e.dot(frame.z);
-  const double w = a.x * a.x + a.y * a.y;
-  a.st = std::sqrt(w);
-  if (w <= lanes::kNearSquare && a.z > 0.0) {
-    const lanes::Arc arc = lanes::near_arc(w);
-    a.ratio = arc.ratio;
-    a.rise = arc.rise - (arc.ratio + arc.rise * w);
-    a.t = arc.ratio * a.st;
-  } else {
-    a.t = std::atan2(a.st, a.z);
-    a.ratio = a.t / a.st;
-    a.rise = (a.z - a.ratio) / w;
-  }
-  a.l = a.ratio * a.x;
-  a.m = a.ratio * a.y;
-  return a;
-}
-
-DeviationRates deviation_rates(const Frame& f, const EdgeAngles& at, const Vec3& e_rate, const Vec3& t_rate,
-                               double spin) {
-  // The frame's m' = -(m.t') t - w l, l' = -(l.t') t + w m.
-  const double x = e_rate.dot(f.x) - f.x.dot(t_rate) * at.z + spin * at.y;
-  const double y = e_rate.dot(f.y) - f.y.dot(t_rate) * at.z - spin * at.x;
-  const double z = e_rate.dot(f.z) + t_rate.dot(at.x * f.x + at.y * f.y + at.z * f.z);
-  const double rising = at.rise * (at.x * x + at.y * y) - z;
-  return {at.ratio * x + rising * at.x, at.ratio * y + rising * at.y};
+  const auto plain = [](const Vec3& v) { return lanes::V3{v.x(), v.y(), v.z()}; };
+  return lanes::edge_angles(plain(e), {plain(frame.x), plain(frame.y), plain(frame.z)});
 }
 
 double twist_angle(const Frame& before, const Frame& after) {

@@ -11,10 +11,11 @@
 namespace tendril {
 namespace {
 
-constexpr std::size_t kMany = 24;   // delays for which a series is made
-constexpr double kFarthest = 4.0;   // that a wave turns by from the middle of its delays [rad]
-constexpr double kLeast = 0x1p-60;  // of a series' last term to the amplitude
-constexpr std::size_t kTerms = 40;  // 4^n / n! is below that from n = 37 on
+constexpr double kFarthestPhase = 1e6;  // up to which the sines of lanes.h hold
+constexpr std::size_t kMany = 24;       // delays for which a series is made
+constexpr double kFarthest = 4.0;       // that a wave turns by from the middle of its delays [rad]
+constexpr double kLeast = 0x1p-60;      // of a series' last term to the amplitude
+constexpr std::size_t kTerms = 40;      // 4^n / n! is below that from n = 37 on
 
 TENDRIL_LANES void add_one(const CarriedWave& wave, const double* __restrict delay, double* __restrict sum,
                            std::size_t count) {
@@ -26,8 +27,16 @@ TENDRIL_LANES void add_one(const CarriedWave& wave, const double* __restrict del
   }
 }
 
+void add_exactly(const CarriedWave& wave, std::span<const double> delay, std::span<double> sum) {
+  for (std::size_t i = 0; i < delay.size(); ++i) {
+    const double a = wave.frequency * delay[i];
+    sum[i] += wave.s * std::cos(a) - wave.c * std::sin(a);
+  }
+}
+
 struct Around {
   double middle, radius;
+  double farthest() const { return std::abs(middle) + radius; }
 };
 
 TENDRIL_LANES Around around(const double* __restrict delay, std::size_t count) {
@@ -71,10 +80,10 @@ TENDRIL_LANES void add_terms(const CarriedWave* waves, std::size_t count, const 
   }
 }
 
-Series series_of(std::span<const CarriedWave> waves, const Around& at, double farthest) {
+Series series_of(std::span<const CarriedWave> waves, const Around& at, double turn) {
   Series series;
   for (double term = 1.0; series.terms + 2 <= kTerms && term > kLeast; series.terms += 2)
-    term *= farthest * farthest / static_cast<double>((series.terms + 1) * (series.terms + 2));
+    term *= turn * turn / static_cast<double>((series.terms + 1) * (series.terms + 2));
   std::array<double, kTerms * kTogether> sums;
   std::fill_n(sums.begin(), kTogether * series.terms, 0.0);
   for (std::size_t first = 0; first < waves.size(); first += kTogether)
@@ -109,13 +118,15 @@ TENDRIL_LANES void add_series(const Series& series, const Around& at, const doub
 }  // namespace
 
 void add_waves(std::span<const CarriedWave> waves, std::span<const double> delay, std::span<double> sum) {
-  if (delay.empty()) return;
+  if (delay.empty() || waves.empty()) return;
   double fastest = 0.0;
   for (const CarriedWave& wave : waves) fastest = std::max(fastest, std::abs(wave.frequency));
   const Around at = around(delay.data(), delay.size());
-  const double farthest = fastest * at.radius;
-  if (delay.size() >= kMany && farthest <= kFarthest)
-    add_series(series_of(waves, at, farthest), at, delay.data(), sum.data(), delay.size());
+  const double turn = fastest * at.radius;
+  if (!(fastest * at.farthest() < kFarthestPhase))
+    for (const CarriedWave& wave : waves) add_exactly(wave, delay, sum);
+  else if (delay.size() >= kMany && turn <= kFarthest)
+    add_series(series_of(waves, at, turn), at, delay.data(), sum.data(), delay.size());
   else
     for (const CarriedWave& wave : waves) add_one(wave, delay.data(), sum.data(), delay.size());
 }
