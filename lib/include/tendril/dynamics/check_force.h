@@ -18,8 +18,8 @@ struct ForceCheck {
   /// Largest difference between its loads and those that LocalCouplings::add gives, at this state and those
   /// beside it, over the largest load. 0 where there is none such.
   double local = 0.0;
-  /// False when it says that it leaves frames alone (Force::acts_on_frames), and adds a torque on a node or another
-  /// load as a frame turns.
+  /// False when it says that it leaves frames alone (Force::acts_on_frames), and adds a torque on a node, or
+  /// another load as a frame turns.
   bool frames = true;
 };
 

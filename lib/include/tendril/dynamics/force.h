@@ -50,8 +50,8 @@ class TENDRIL_CORE_API Force {
   /// False when the loads are the same at all times.
   virtual bool depends_on_time() const { return true; }
 
-  /// False when it neither looks at frames (t, m, spin and turn of a state) nor adds torques on nodes. Where no
-  /// force of a scene does, all of these may be empty in what it is shown.
+  /// False when it neither looks at frames (t, m, spin and turn of a state) nor adds torques on nodes. Where
+  /// no force of a scene does, all of these may be empty in what it is shown.
   virtual bool acts_on_frames() const { return true; }
 
   /// True when it may turn nodes about their tangents: such a scene keeps its twist state.

@@ -7,8 +7,8 @@ namespace tendril {
 constexpr double kFoldBack = 1e-9;     ///< least length of the sum of two unit edges that gives a tangent
 constexpr double kTurnedTooFar = 0.4;  ///< least 1 + t_s . t
 
-/// Fills kinematics from y. For springs alone, numbers in y that are not finite may pass: they make the forces
-/// so. Not where others see them.
+/// Fills kinematics from y. For springs alone, numbers in y that are not finite may pass: they make the
+/// forces so. Not where others see them.
 Evaluation kinematics(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                       Motion what, Kinematics& kin);
 

@@ -317,8 +317,8 @@ void Model::choose_forces() {
       acting.push_back({force.get(), f, force->has_energy(), force->refuses(), couplings_of(f)});
   }
   loaded = !acting.empty();
-  turned = std::any_of(acting.begin(), acting.end(),
-                       [](const Acting& of) { return of.force->acts_on_frames(); });
+  turned =
+      std::any_of(acting.begin(), acting.end(), [](const Acting& of) { return of.force->acts_on_frames(); });
 }
 
 Couplings Model::couplings_of(std::size_t force) const {

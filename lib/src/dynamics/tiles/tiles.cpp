@@ -11,8 +11,9 @@ constexpr std::size_t kOwn = 1024;
 // Scenes of fewer nodes have no tiles: the cache holds them.
 constexpr std::size_t kWorthIt = 4 * kOwn;
 // The force on a node depends on the three before it and behind (its edges' twist turns the frames at their
-// other ends, which halve the angles to the edges beyond), and a step has six stages.
-constexpr std::size_t kFelt = 3 * 6;
+// other ends, which halve the angles to the edges beyond), by places and velocities, and a step has six
+// stages. Without twist it depends on two, by places alone: these are moved by velocities of a stage before.
+constexpr std::size_t kFelt = 3 * 6, kFeltWithoutTwist = 2 * 3;
 
 bool passes_through_springs_alone(const Model& model) {
   return !model.loaded && model.attachments.empty() && model.bodies.empty() && model.sliders.empty() &&
@@ -31,12 +32,17 @@ std::size_t end_of_tile(const Model& model, std::size_t first) {
 }
 
 /// As far as own nodes feel, but not beyond their rod.
+std::size_t felt(const Model& model, std::size_t node) {
+  return model.has_twist(node) ? kFelt : kFeltWithoutTwist;
+}
 std::size_t begin_of_felt(const Model& model, std::size_t first) {
-  for (std::size_t k = 0; k < kFelt && model.begins[first] == 0; ++k) --first;
+  const std::size_t most = felt(model, first);
+  for (std::size_t k = 0; k < most && model.begins[first] == 0; ++k) --first;
   return first;
 }
 std::size_t end_of_felt(const Model& model, std::size_t end) {
-  for (std::size_t k = 0; k < kFelt && model.ends[end - 1] == 0; ++k) ++end;
+  const std::size_t most = felt(model, end - 1);
+  for (std::size_t k = 0; k < most && model.ends[end - 1] == 0; ++k) ++end;
   return end;
 }
 

@@ -23,8 +23,8 @@ struct DragPerLength {
   double normal, tangential;
 };
 
-/// Takes the edges between each of some nodes and the next one. Their delays are the products of `by` with their
-/// middles.
+/// Takes the edges between each of some nodes and the next one. Their delays are the products of `by` with
+/// their middles.
 /// \param p, v   places and velocities, one more than there are edges
 /// \param width  per edge
 void expose(std::span<const Vec3> p, std::span<const Vec3> v, std::span<const double> width, const Vec3& by,
