@@ -50,9 +50,9 @@ struct Sums {
       error_weights[count++] = h * (T::c[s] - T::c_star[s]);
     }
   }
-  bool put(const Eigen::VectorXd& from, const Stretch& stretch, Eigen::VectorXd& y,
+  bool put(const Eigen::VectorXd& from, const NumbersAt& part, Eigen::VectorXd& y,
            Eigen::VectorXd* error) const {
-    return combine_both(from, terms, error_weights, count, stretch, y, error);
+    return combine_both(from, terms, error_weights, count, part, y, error);
   }
   /// One number more, beside what is there.
   void add(Eigen::Index from, Eigen::Index to, Eigen::VectorXd& y, Eigen::VectorXd* error) const {
@@ -86,7 +86,7 @@ bool step_tiles(const Model& model, const State& from, double h, System::Workspa
     stages.first_known = false;
     if (!differentiate(*tile.part, part, h, scratch.workspace(tile), stages).ok()) return false;
     const Sums sums(stages, h);
-    for (const Stretch& own : tile.own)
+    for (const NumbersAt& own : tile.own)
       if (!sums.put(part.y, own, y, error)) return false;
     sums.add(tile.part->work_index(), model.work_index(), y, error);
   }

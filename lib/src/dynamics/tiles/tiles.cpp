@@ -47,12 +47,12 @@ std::size_t end_of_felt(const Model& model, std::size_t end) {
 }
 
 /// Where the numbers of the nodes [first, end) stand in the scene's y and in the part's.
-std::vector<Stretch> stretches(const Model& whole, const Model& part, std::size_t begin, std::size_t first,
-                               std::size_t end) {
+std::vector<NumbersAt> numbers_of(const Model& whole, const Model& part, std::size_t begin, std::size_t first,
+                                  std::size_t end) {
   const auto at = static_cast<Eigen::Index>(first), in_part = static_cast<Eigen::Index>(first - begin),
              count = static_cast<Eigen::Index>(end - first);
-  std::vector<Stretch> result{{3 * at, 3 * in_part, 3 * count},
-                              {whole.v_begin() + 3 * at, part.v_begin() + 3 * in_part, 3 * count}};
+  std::vector<NumbersAt> result{{3 * at, 3 * in_part, 3 * count},
+                                {whole.v_begin() + 3 * at, part.v_begin() + 3 * in_part, 3 * count}};
   // The places of nodes among the twist states rise with the nodes.
   while (first < end && !whole.has_twist(first)) ++first;
   while (first < end && !whole.has_twist(end - 1)) --end;
@@ -64,9 +64,9 @@ std::vector<Stretch> stretches(const Model& whole, const Model& part, std::size_
   return result;
 }
 
-std::vector<Stretch> turned_round(std::vector<Stretch> stretches) {
-  for (Stretch& stretch : stretches) std::swap(stretch.from, stretch.to);
-  return stretches;
+std::vector<NumbersAt> turned_round(std::vector<NumbersAt> numbers) {
+  for (NumbersAt& part : numbers) std::swap(part.from, part.to);
+  return numbers;
 }
 
 template <class T>
@@ -84,8 +84,8 @@ Tiles::Tiles(const Model& model) {
     const std::size_t begin = begin_of_felt(model, first);
     const std::shared_ptr<const Model> part =
         part_of(model, anchored, begin, end_of_felt(model, end), first, end);
-    tiles_.push_back({first, end, begin, part, stretches(model, *part, begin, begin, begin + part->nodes),
-                      turned_round(stretches(model, *part, begin, first, end)), 0});
+    tiles_.push_back({first, end, begin, part, numbers_of(model, *part, begin, begin, begin + part->nodes),
+                      turned_round(numbers_of(model, *part, begin, first, end)), 0});
     first = end;
   }
   number_workspaces();
@@ -133,7 +133,7 @@ const State& TileScratch::take(const Tiles::Tile& tile, const State& from) {
   const Model& part = *tile.part;
   state_.time = from.time;
   state_.y.resize(part.size());
-  for (const Stretch& all : tile.all)
+  for (const NumbersAt& all : tile.all)
     state_.y.segment(all.to, all.count) = from.y.segment(all.from, all.count);
   state_.y[part.work_index()] = 0.0;
   if (part.twist_nodes == 0 && part.anchors.empty()) return state_;

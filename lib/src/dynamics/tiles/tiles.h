@@ -17,9 +17,9 @@ class Tiles {
   struct Tile {
     std::size_t first, end, begin;
     std::shared_ptr<const Model> part;
-    std::vector<Stretch> all;  ///< of the scene's y, for the part's; not the work
-    std::vector<Stretch> own;  ///< of the part's y, what it answers for: for the scene's
-    std::size_t workspace;     ///< which of a scratch's it may use: tiles alike share one
+    std::vector<NumbersAt> all;  ///< of the scene's y, for the part's; not the work
+    std::vector<NumbersAt> own;  ///< of the part's y, what it answers for: for the scene's
+    std::size_t workspace;       ///< which of a scratch's it may use: tiles alike share one
   };
 
   explicit Tiles(const Model& model);

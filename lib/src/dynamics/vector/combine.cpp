@@ -96,18 +96,18 @@ void combine(const Eigen::VectorXd* from, const Term* terms, std::size_t count, 
 }
 
 bool combine_both(const Eigen::VectorXd& from, const Term* terms, const double* error_weights,
-                  std::size_t count, const Stretch& stretch, Eigen::VectorXd& to, Eigen::VectorXd* error) {
+                  std::size_t count, const NumbersAt& part, Eigen::VectorXd& to, Eigen::VectorXd* error) {
   Both both{};
-  both.k.fill(terms[0].vector->data() + stretch.from);
+  both.k.fill(terms[0].vector->data() + part.from);
   for (std::size_t j = 0; j < count; ++j) {
-    both.k[j] = terms[j].vector->data() + stretch.from;
+    both.k[j] = terms[j].vector->data() + part.from;
     both.w[j] = terms[j].weight;
     both.e[j] = error_weights[j];
   }
-  const auto size = static_cast<std::size_t>(stretch.count);
-  const double* start = from.data() + stretch.from;
-  double* put = to.data() + stretch.to;
-  return error ? add_up_with_error(size, start, both, put, error->data() + stretch.to)
+  const auto size = static_cast<std::size_t>(part.count);
+  const double* start = from.data() + part.from;
+  double* put = to.data() + part.to;
+  return error ? add_up_with_error(size, start, both, put, error->data() + part.to)
                : add_up_alone(size, start, both, put);
 }
 

@@ -17,13 +17,13 @@ struct Term {
 void combine(const Eigen::VectorXd* from, const Term* terms, std::size_t count, Eigen::VectorXd& to);
 
 /// `count` numbers of vectors, from `from` on, that stand at `to` and after it in another.
-struct Stretch {
+struct NumbersAt {
   Eigen::Index from, to, count;
 };
 
-/// A stretch of two sums of the same vectors in one pass, `from` added to the first: a step and its error,
+/// A part of two sums of the same vectors in one pass, `from` added to the first: a step and its error,
 /// which may be null where nobody asks. Five vectors at most. False when a number is not finite.
 bool combine_both(const Eigen::VectorXd& from, const Term* terms, const double* error_weights,
-                  std::size_t count, const Stretch& stretch, Eigen::VectorXd& to, Eigen::VectorXd* error);
+                  std::size_t count, const NumbersAt& part, Eigen::VectorXd& to, Eigen::VectorXd* error);
 
 }  // namespace tendril
