@@ -194,6 +194,9 @@ TEST(Tiles, NameTheNodeWhereAStepFails) {
     const Evaluation after = twin->system.rebase(twin->state, *twin->system.make_workspace());
     EXPECT_EQ(after.outcome, Evaluation::Outcome::zero_edge);
     EXPECT_EQ(after.node, 1700u);
+    const Evaluation taken = twin->stepper.advance(twin->state, 1e-6);
+    EXPECT_EQ(taken.outcome, Evaluation::Outcome::zero_edge);
+    EXPECT_EQ(taken.node, 1700u);
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "dynamics/rhs/kinematics.h"
 #include "dynamics/rhs/rates.h"
-#include "dynamics/tiles/tiles.h"
+#include "dynamics/tiles/rebase.h"
 #include "dynamics/vector/combine.h"
 
 namespace tendril {
@@ -93,12 +95,82 @@ bool step_tiles(const Model& model, const State& from, double h, System::Workspa
   return std::isfinite(y[model.work_index()]);
 }
 
+/// Steps of all tiles in place, frames renewed. What a tile comes to waits until the next one is stepped:
+/// that begins with numbers as they were, and the frames of the one before depend on its first nodes.
+class TilesInPlace {
+ public:
+  /// On failure the state is not to be used.
+  Evaluation advance(const Model& model, State& state, double h, System::Workspace& work) {
+    TileScratch& scratch = TileScratch::of(model, work);
+    const std::vector<Tiles::Tile>& tiles = model.tiles->all();
+    std::size_t rod = 0;
+    double done = state.y[model.work_index()];
+    for (std::size_t k = 0; k <= tiles.size(); ++k) {
+      if (k < tiles.size())
+        if (const Evaluation at = step(tiles[k], scratch, state, h, done); !at.ok())
+          return of_scene(tiles[k], at);
+      if (k > 0)
+        if (const Evaluation at = finish(model, tiles[k - 1], scratch, state, h, rod); !at.ok())
+          return of_scene(tiles[k - 1], at);
+      std::swap(now_, next_);
+    }
+    state.y[model.work_index()] = done;
+    state.time += h;
+    if (!std::isfinite(done)) return {Evaluation::Outcome::not_finite, 0};
+    return {};
+  }
+
+ private:
+  static Evaluation of_scene(const Tiles::Tile& tile, const Evaluation& at) {
+    return {at.outcome, at.node + tile.begin};
+  }
+
+  /// Into next_.
+  Evaluation step(const Tiles::Tile& tile, TileScratch& scratch, const State& state, double h, double& done) {
+    const State& part = scratch.take(tile, state);
+    stages_.first_known = false;
+    if (const Evaluation at = differentiate(*tile.part, part, h, scratch.workspace(tile), stages_); !at.ok())
+      return at;
+    next_.resize(part.y.size());
+    next_[tile.part->work_index()] = 0.0;
+    const Sums sums(stages_, h);
+    for (const NumbersAt& own : tile.own)
+      if (!sums.put(part.y, {own.from, own.from, own.count}, next_, nullptr))
+        return {Evaluation::Outcome::not_finite, 0};
+    sums.add(tile.part->work_index(), tile.part->work_index(), next_, nullptr);
+    done += next_[tile.part->work_index()];
+    return {};
+  }
+
+  /// Of the tile in now_, with the one in next_ behind it.
+  Evaluation finish(const Model& model, const Tiles::Tile& tile, TileScratch& scratch, State& state, double h,
+                    std::size_t& rod) {
+    for (const NumbersAt& before : tile.before)
+      now_.segment(before.to, before.count) = state.y.segment(before.from, before.count);
+    for (const NumbersAt& after : tile.after)
+      now_.segment(after.to, after.count) = next_.segment(after.from, after.count);
+    Kinematics& kin = scratch.workspace(tile).kinematics;
+    const State& reference = scratch.take_reference(tile, state);
+    if (const Evaluation at = kinematics(*tile.part, reference, state.time + h, now_, Motion::positions, kin);
+        !at.ok())
+      return at;
+    for (const NumbersAt& own : tile.own)
+      state.y.segment(own.to, own.count) = now_.segment(own.from, own.count);
+    rebase_seen(model, {*tile.part, kin, tile.begin, tile.first, tile.end}, rod, state);
+    return {};
+  }
+
+  Stages stages_;
+  Eigen::VectorXd now_, next_;
+};
+
 }  // namespace
 
 struct CashKarp::Implementation {
   const System& system;
   System::WorkspacePtr work = system.make_workspace();
   Stages whole = {}, tile = {};
+  TilesInPlace in_place = {};
   Eigen::VectorXd next = {};  ///< of a step that is taken as it is
 
   Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd* error) {
@@ -121,6 +193,12 @@ Evaluation CashKarp::step(const State& state, double h, Eigen::VectorXd& y, Eige
 }
 
 Evaluation CashKarp::advance(State& state, double h) {
+  const Model& model = model_of(self_->system);
+  if (model.tiles) {
+    self_->whole.evaluations += static_cast<long>(self_->whole.k.size());
+    restart();
+    return self_->in_place.advance(model, state, h, *self_->work);
+  }
   if (const Evaluation at = self_->step(state, h, self_->next, nullptr); !at.ok()) return at;
   state.y.swap(self_->next);
   state.time += h;

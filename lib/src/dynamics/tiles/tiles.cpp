@@ -1,6 +1,7 @@
 #include "tiles.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace tendril {
@@ -84,11 +85,33 @@ Tiles::Tiles(const Model& model) {
     const std::size_t begin = begin_of_felt(model, first);
     const std::shared_ptr<const Model> part =
         part_of(model, anchored, begin, end_of_felt(model, end), first, end);
-    tiles_.push_back({first, end, begin, part, numbers_of(model, *part, begin, begin, begin + part->nodes),
-                      turned_round(numbers_of(model, *part, begin, first, end)), 0});
+    tiles_.push_back({first,
+                      end,
+                      begin,
+                      part,
+                      numbers_of(model, *part, begin, begin, begin + part->nodes),
+                      turned_round(numbers_of(model, *part, begin, first, end)),
+                      numbers_of(model, *part, begin, begin, first),
+                      {},
+                      0});
     first = end;
   }
+  join(model);
   number_workspaces();
+}
+
+/// A tile feels no farther than the next one's own nodes.
+void Tiles::join(const Model& model) {
+  for (std::size_t k = 0; k + 1 < tiles_.size(); ++k) {
+    Tile& tile = tiles_[k];
+    const Tile& next = tiles_[k + 1];
+    const std::size_t end = tile.begin + tile.part->nodes;
+    assert(end <= next.end);
+    const std::vector<NumbersAt> here = numbers_of(model, *tile.part, tile.begin, tile.end, end);
+    const std::vector<NumbersAt> there = numbers_of(model, *next.part, next.begin, tile.end, end);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      tile.after.push_back({there[i].to, here[i].to, here[i].count});
+  }
 }
 
 /// Numbers that one tile leaves and another does not write may not matter to that one: so it is where both
@@ -136,6 +159,11 @@ const State& TileScratch::take(const Tiles::Tile& tile, const State& from) {
   for (const NumbersAt& all : tile.all)
     state_.y.segment(all.to, all.count) = from.y.segment(all.from, all.count);
   state_.y[part.work_index()] = 0.0;
+  return take_reference(tile, from);
+}
+
+const State& TileScratch::take_reference(const Tiles::Tile& tile, const State& from) {
+  const Model& part = *tile.part;
   if (part.twist_nodes == 0 && part.anchors.empty()) return state_;
   take_part(from.tangent, tile, state_.tangent);
   take_part(from.director, tile, state_.director);

@@ -17,9 +17,11 @@ class Tiles {
   struct Tile {
     std::size_t first, end, begin;
     std::shared_ptr<const Model> part;
-    std::vector<NumbersAt> all;  ///< of the scene's y, for the part's; not the work
-    std::vector<NumbersAt> own;  ///< of the part's y, what it answers for: for the scene's
-    std::size_t workspace;       ///< which of a scratch's it may use: tiles alike share one
+    std::vector<NumbersAt> all;     ///< of the scene's y, for the part's; not the work
+    std::vector<NumbersAt> own;     ///< of the part's y, what it answers for: for the scene's
+    std::vector<NumbersAt> before;  ///< of the scene's y, what it feels before its own: for the part's
+    std::vector<NumbersAt> after;   ///< of the next tile's y, what it feels behind them: for the part's
+    std::size_t workspace;          ///< which of a scratch's it may use: tiles alike share one
   };
 
   explicit Tiles(const Model& model);
@@ -28,6 +30,7 @@ class Tiles {
 
  private:
   void number_workspaces();
+  void join(const Model& model);
 
   std::vector<Tile> tiles_;
 };
@@ -44,6 +47,8 @@ class TileScratch {
 
   /// The tile's part of a state, until the next is asked for; its work is 0.
   const State& take(const Tiles::Tile& tile, const State& from);
+  /// The reference frames alone.
+  const State& take_reference(const Tiles::Tile& tile, const State& from);
   System::Workspace& workspace(const Tiles::Tile& tile) { return *workspaces_[tile.workspace]; }
 
  private:
