@@ -98,6 +98,15 @@ TEST(AxisRefusal, NotFiniteAndOutOfRange) {
   EXPECT_EQ(refusal(good, with(&axis::AxisOptions::time_limit, std::nan(""))).substr(0, 11), "time_limit:");
 }
 
+/// One point far off: what it makes of the others would be split into ever more pieces.
+TEST(AxisRefusal, NeedlesBeyondAllMeasure) {
+  for (const double far : {1e6, 1e7}) {
+    bind::PolygonMesh mesh = cylinder(1.0, 0.1, 7, 5);
+    mesh.points[17] = Vec3(far, 0, 0);
+    EXPECT_EQ(refusal(mesh), "mesh: triangles thousands of times as long as the surface is wide") << far;
+  }
+}
+
 TEST(AxisRefusal, TheTimeLimitIsAStatus) {
   axis::AxisOptions options;
   options.time_limit = 1e-3;

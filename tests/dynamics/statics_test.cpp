@@ -30,6 +30,18 @@ TEST(Column, LeavesTheUprightStateOnlyWhereItIsAskedForAStableOne) {
   EXPECT_EQ(balanced(system, options).state.y, bent.state.y);
 }
 
+/// Of a wind next to none the gusts change within no way at all: their derivative is not to be had.
+TEST(Statics, SayWhereDerivativesAreNotFinite) {
+  Scene scene;
+  scene.rods.push_back(test::unit_rod(20, 1e-3));
+  scene.anchors.push_back({0, 2, true, true, {}});
+  scene.forces.push_back(std::make_shared<Wind>(WindOptions{.mean = Vec3(1e-160, 0, 0), .gust = 0.5}));
+  const System system(scene);
+  const Equilibrium out = find_equilibrium(system, system.rest_state(), {});
+  EXPECT_EQ(out.balance, Balance::not_evaluable);
+  EXPECT_NE(out.reason.find("not finite"), std::string::npos) << out.reason;
+}
+
 /// A load that may change with time has the potential of one that cannot.
 TEST(DeadLoad, HasItsPotentialWhateverItsSignal) {
   const Vec3 load(0.2, 0, -1.5);

@@ -294,15 +294,25 @@ void split_long_edges(const Triangle& face, double most, Middles& middles, const
 /// Needles (a cylinder with points on its lids only) leave the contraction nothing to move along their way:
 /// edges much longer than the points asked for would stand apart are halved until none is left.
 void split_needles(Soup& soup, std::size_t points) {
-  constexpr double kApart = 4.0, kSlender = 8.0;
+  constexpr double kApart = 4.0, kSlender = 8.0, kMostPieces = 25.0;
   const double most =
       kApart * std::sqrt(area_of(soup) / static_cast<double>(std::max<std::size_t>(points, 1)));
+  const auto longest = [&](const Triangle& face) {
+    const Vec3 &a = soup.points[face[0]], &b = soup.points[face[1]], &c = soup.points[face[2]];
+    return std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+  };
   const auto is_needle = [&](const Triangle& face) {
     const Vec3 x = soup.points[face[1]] - soup.points[face[0]],
                y = soup.points[face[2]] - soup.points[face[0]];
-    const double longest = std::max({x.norm(), y.norm(), (y - x).norm()});
-    return longest > most && longest * longest > kSlender * x.cross(y).norm();
+    const double length = longest(face);
+    return length > most && length * length > kSlender * x.cross(y).norm();
   };
+  double pieces = 0.0;
+  for (const Triangle& face : soup.faces)
+    if (is_needle(face)) pieces += 2.0 * longest(face) / most;
+  if (!(pieces < kMostPieces * static_cast<double>(points)))
+    throw InvalidInput("mesh", "triangles thousands of times as long as the surface is wide",
+                       "none that would take many times the points of others to find an axis in");
   // Halved a hundred times, any edge is shorter than the spacing of its numbers.
   for (int pass = 0; pass < 100 && std::any_of(soup.faces.begin(), soup.faces.end(), is_needle); ++pass) {
     std::vector<Triangle> faces;

@@ -64,7 +64,11 @@ bool StaticNewton::factorise(const StaticState& at) {
   failure_ = problem_.tangent(at, k);
   if (!failure_.ok()) return false;
   tangent_.set(k, problem_.conservative());
-  factored_ = true;
+  factored_ = tangent_.finite();
+  if (!factored_) {
+    failure_ = {Evaluation::Outcome::not_finite, 0};
+    return false;
+  }
   indefinite_ = false;
   unstable_ = 0;
   if (!problem_.conservative()) {

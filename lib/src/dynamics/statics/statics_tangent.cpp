@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tendril {
@@ -93,17 +94,27 @@ void StaticTangent::order() {
 bool StaticTangent::factorise(double shift) {
   ++factorisations;
   shift_ = shift;
+  // Neither of Eigen's factorisations may be handed, nor solve with, what is not finite.
+  factorised_ = finite() && std::isfinite(shift) && factorise_finite();
+  return factorised_;
+}
+
+bool StaticTangent::factorise_finite() {
   if (symmetric_) {
     if (!analysed_) order();
-    ldlt_.setShift(shift);
+    ldlt_.setShift(shift_);
     ldlt_.factorize(order_.size() > 0 ? ordered_ : s_);
     return ldlt_.info() == Eigen::Success && ldlt_.vectorD().allFinite();
   }
   Eigen::SparseMatrix<double> unit(s_.rows(), s_.cols());
   unit.setIdentity();
-  const Eigen::SparseMatrix<double> shifted = s_ + shift * unit;
+  const Eigen::SparseMatrix<double> shifted = s_ + shift_ * unit;
   lu_.compute(shifted);
   return lu_.info() == Eigen::Success;
+}
+
+bool StaticTangent::finite() const {
+  return Eigen::Map<const Eigen::VectorXd>(s_.valuePtr(), s_.nonZeros()).allFinite();
 }
 
 int StaticTangent::negative() const {
@@ -119,6 +130,8 @@ bool StaticTangent::soft() const {
 }
 
 Eigen::VectorXd StaticTangent::solve_scaled(const Eigen::VectorXd& b) const {
+  if (!factorised_ || !b.allFinite())
+    return Eigen::VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
   if (!symmetric_) return lu_.solve(b);
   if (order_.size() == 0) return ldlt_.solve(b);
   return order_.inverse() * Eigen::VectorXd(ldlt_.solve(Eigen::VectorXd(order_ * b)));

@@ -19,7 +19,8 @@ class StaticTangent {
   /// \param symmetric  of k only the lower triangle is there
   void set(const Eigen::SparseMatrix<double>& k, bool symmetric);
 
-  /// False when a pivot is 0.
+  bool finite() const;  ///< all numbers of K
+  /// False when a pivot is 0, or a number is not finite. Then solutions are not numbers.
   bool factorise(double shift);
   int negative() const;  ///< pivots below 0: eigenvalues of S below -shift
   bool soft() const;     ///< a pivot that rounding may have made
@@ -43,8 +44,9 @@ class StaticTangent {
   Eigen::SparseMatrix<double> s_;
   bool symmetric_ = true;
   double rounding_ = 0.0, shift_ = 0.0;
-  bool analysed_ = false;
+  bool analysed_ = false, factorised_ = false;
   void order();
+  bool factorise_finite();
   Eigen::PermutationMatrix<Eigen::Dynamic> order_;  ///< of no size where rows keep theirs
   Eigen::SparseMatrix<double> ordered_;             ///< the lower triangle of S in that order
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt_;
