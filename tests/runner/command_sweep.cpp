@@ -1,5 +1,5 @@
-// Command lines with odd meshes, curves, poses and options: whatever is asked, the program ends by itself with
-// 0, 1 or 2. Each runs in a process of its own, so that a signal is seen.
+// Command lines with odd meshes, curves, poses and options: whatever is asked, the program ends by itself
+// with 0, 1 or 2. Each runs in a process of its own, so that a signal is seen.
 //   command_sweep [--seed S] [--count N] [--keep FOLDER]
 // Exit 1 where one ended otherwise or took more than a minute; what it was given stays in FOLDER, by number.
 #include <fcntl.h>
