@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::size_t kPartRank = 60;  // of the first column, behind those of a workspace
 
+// A part is a Model, so that the loops over nodes know nothing of tiles. Only what the right-hand side of
+// a scene with tiles reads is filled: neither rest shapes nor what joints, loads and bodies need, which
+// such a scene has not.
+
 /// What makes a part: the nodes [first, end), of which [own_first, own_end) count.
 struct Cut {
   const Model& whole;
@@ -32,7 +36,8 @@ Column column_of(const Cut& cut, const Column& from, std::size_t& rank) {
   return to;
 }
 
-/// Ranges of nodes stand in the order of the nodes, as do lists of them: those of a part are found at once.
+/// Ranges of nodes stand in the order of the nodes, as do lists of them: those of a part are found at
+/// once.
 template <class Range>
 std::span<const Range> meeting(const Cut& cut, const std::vector<Range>& ranges, const auto& end_of) {
   const auto first = std::partition_point(ranges.begin(), ranges.end(),
@@ -86,6 +91,8 @@ void take_nodes(const Cut& cut, const std::vector<std::size_t>& from, std::size_
     to.push_back(*node - cut.first);
 }
 
+/// A held node holds in every part that it is in, or the nodes beside it would move as if it were free.
+/// Its power counts where it is owned alone, for all parts' are summed.
 void take_held(const Cut& cut) {
   const Model& whole = cut.whole;
   Model& part = cut.part;
@@ -101,13 +108,15 @@ void take_held(const Cut& cut) {
   all(whole.bending.held, part.bending.held);
   all(whole.bending.held_hinges, part.bending.held_hinges);
   part.bending.held_child.assign(part.bending.held.size(), -1);
+  // These are read at held nodes alone, which most parts have none of.
   if (part.bending.held.empty() && part.bending.held_hinges.empty() && !part.driven) return;
   for (auto numbers : {&Model::bend_l, &Model::bend_m, &Model::bend_t, &Model::moved_mass, &Model::viscosity})
     take(cut, numbers);
   for (auto numbers : {&Model::rest_l, &Model::rest_m, &Model::rest_t}) take(cut, numbers, 2);
 }
 
-/// Where a rod is cut there is neither an edge beyond nor what would bend there.
+/// Where a rod is cut there is neither an edge beyond nor what would bend there. What comes of that is
+/// wrong, and by the end of a step has come up to the own nodes, but not to them (kFelt in tiles.cpp).
 void end_where_cut(const Cut& cut) {
   Model& part = cut.part;
   for (const NodeRange& rod : part.rods) {
@@ -156,6 +165,7 @@ std::shared_ptr<const Model> part_of(const Model& whole, const std::vector<Ancho
   for (auto column : {&Bending::k_l, &Bending::k_m, &Bending::k_t, &Bending::rest_l, &Bending::rest_m,
                       &Bending::rest_t, &Bending::hinge})
     part.bending.*column = column_of(cut, whole.bending.*column, rank);
+  // Damping slows all nodes by `damping`; these two make its power, once a node of the scene.
   for (std::size_t i = 0; i < part.nodes; ++i)
     if (!cut.owns(first + i)) part.damped_mass[i] = part.damped_inertia[i] = 0.0;
   end_where_cut(cut);
