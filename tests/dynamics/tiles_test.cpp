@@ -136,12 +136,16 @@ TEST(Tiles, StepALongChainWithoutTwistAsAWhole) {
   expect_same(twins, twins.step_size());
 }
 
+Scene chain_with_twist(int edges) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(edges, 1e6, 2e-4));
+  scene.twist = Scene::Twist::everywhere;
+  return scene;
+}
+
 TEST(Tiles, StepALongChainWithTwistAsAWhole) {
   Random random(5);
-  Scene scene;
-  scene.rods.push_back(test::straight_rod(4300, 1e6, 2e-4));
-  scene.twist = Scene::Twist::everywhere;
-  Twins twins(scene);
+  Twins twins(chain_with_twist(4300));
   twins.push(random, 1e-4, 1e-2);
   expect_same(twins, twins.step_size());
 }
@@ -167,10 +171,7 @@ TEST(Tiles, StepManyRodsOfAllLengthsAsAWhole) {
 /// Where large angles begin and end another loop does them, in ranges at other places.
 TEST(Tiles, StepPartlyBentRodsToRounding) {
   Random random(7);
-  Scene scene;
-  scene.rods.push_back(test::straight_rod(5000, 1e6, 2e-4));
-  scene.twist = Scene::Twist::everywhere;
-  Twins twins(scene);
+  Twins twins(chain_with_twist(5000));
   for (Twin* twin : {&twins.tiled, &twins.whole})
     for (Eigen::Index i : {1010, 1500, 2047, 4500}) twin->state.y[3 * i + 2] += 3e-4;
   twins.push(random, 1e-4, 1e-2);
