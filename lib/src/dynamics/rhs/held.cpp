@@ -23,12 +23,6 @@ TENDRIL_INLINE NodeAxes axes_at(std::size_t i, const Kinematics& kin) {
   return {lanes::cross(m, t), m, t};
 }
 
-TENDRIL_INLINE void add_to(std::size_t i, const V3& v, Columns3& to) {
-  to.x[i] += v.x;
-  to.y[i] += v.y;
-  to.z[i] += v.z;
-}
-
 /// The springs of the edge at `side` of a held node (0 before, 1 after), which makes these angles.
 template <bool Viscous>
 TENDRIL_INLINE Given pull_at(const Model& model, std::size_t i, const NodeAxes& f, std::size_t side,
@@ -93,7 +87,7 @@ TENDRIL_INLINE double bend_at(const Model& model, std::size_t node, const EdgeAn
     sum.energy += given.energy;
     sum.heat += given.heat;
   }
-  add_to(node, sum.tangent, grad.tangent);
+  lanes::Writer(grad.tangent).add(node, sum.tangent);
   grad.spin[node] += sum.spin;
   heat += sum.heat;
   return sum.energy;
@@ -187,7 +181,7 @@ TENDRIL_LANES double give_way_at_hubs(const Model& model, bool viscous, const Ki
       const double torque = model.twist[i] * way.z;
       const V3 ta = t.at(i), tb = t.at(i + 1);
       grad.twist_torque[i] -= torque;
-      add_to(i, (-torque / (1.0 + lanes::dot(ta, tb))) * lanes::cross(ta, tb), grad.twist_tangent);
+      lanes::Writer(grad.twist_tangent).add(i, (-torque / (1.0 + lanes::dot(ta, tb))) * lanes::cross(ta, tb));
     }
   }
   return energy;

@@ -40,10 +40,7 @@ TENDRIL_LANES void through_frames(std::size_t first, std::size_t end, const Kine
 
 TENDRIL_INLINE void add_across(std::size_t i, const V3& g, const Kinematics& kin, Columns3& to) {
   const V3 e = Reader(kin.e).at(i);
-  const V3 across = kin.inverse_length[i] * (g - lanes::dot(e, g) * e);
-  to.x[i] += across.x;
-  to.y[i] += across.y;
-  to.z[i] += across.z;
+  Writer(to).add(i, kin.inverse_length[i] * (g - lanes::dot(e, g) * e));
 }
 /// What springs at held frames give the edges at their nodes.
 TENDRIL_LANES void through_held_edges(const std::vector<std::size_t>& held, const Kinematics& kin,
@@ -83,7 +80,7 @@ TENDRIL_INLINE void pass_on_torque(const Model::Attachment& attached, const Kine
     loads.torque[i].setZero();
   }
   const V3 torque = lanes::cross(t0, Reader(grad.tangent).at(i)) + along * t0;
-  Writer(grad.tangent).put(at, Reader(grad.tangent).at(at) + lanes::cross(torque, t));
+  Writer(grad.tangent).add(at, lanes::cross(torque, t));
   Writer(grad.tangent).put(i, V3{});
   grad.spin[at] += lanes::dot(torque, t);
   grad.spin[i] = 0.0;

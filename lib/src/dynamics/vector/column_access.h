@@ -19,6 +19,11 @@ struct Writer {
     y[i] = v.y;
     z[i] = v.z;
   }
+  TENDRIL_INLINE void add(std::size_t i, const V3& v) const {
+    x[i] += v.x;
+    y[i] += v.y;
+    z[i] += v.z;
+  }
 };
 
 }  // namespace tendril::lanes
