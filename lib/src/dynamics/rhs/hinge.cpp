@@ -96,7 +96,8 @@ bool never(const Model&, const State&, std::size_t, std::size_t, const Kinematic
 Evaluation hinge(const Model& model, const State& reference, const Segment& segment, bool energy,
                  const Kinematics& kin, Gradient& grad) {
   // No springs act on these tangents, but torques may.
-  for (std::size_t i = segment.first; i < segment.end && model.turned; ++i) grad.tangent.set(i, Vec3::Zero());
+  for (std::size_t i = segment.first; i < segment.end && model.acts_on_frames; ++i)
+    grad.tangent.set(i, Vec3::Zero());
   const Loops loops = energy ? Loops{never, hinge_with_energy} : Loops{hinge_near, hinge_far};
   if (run(loops, model, reference, segment, kin, grad)) return {};
   for (std::size_t i = segment.first; i < segment.end; ++i)

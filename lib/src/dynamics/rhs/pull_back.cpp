@@ -117,7 +117,7 @@ void pull_on_edges(const Model& model, const Kinematics& kin, Gradient& grad, Lo
   pass_on_torques(model, kin, grad, loads);
   if (!model.swivels.empty()) turn_swivels(model, kin, grad, loads);
   for (const Segment& s : model.segments)
-    (s.twist || model.turned ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
+    (s.twist || model.acts_on_frames ? through_frames : through_hinges)(s.first, s.end, kin, grad, pull);
   through_held_edges(model.bending.held, kin, grad, pull);
   through_held_edges(model.bending.held_hinges, kin, grad, pull);
 }

@@ -28,13 +28,13 @@ void put(const Columns3& from, std::size_t first, std::size_t end, std::vector<V
 }  // namespace
 
 StateView view(const Model& model, double t, const Kinematics& kin, LoadColumns& loads) {
-  assert(kin.has_rates() && (kin.has_frames() || !model.turned));
+  assert(kin.has_rates() && (kin.has_frames() || !model.acts_on_frames));
   const std::size_t n = model.nodes;
   if (n > 0) {
     put(kin.p, 0, n, loads.p);
     put(kin.v, 0, n, loads.v);
   }
-  if (n > 0 && model.turned) {
+  if (n > 0 && model.acts_on_frames) {
     put(kin.frame.z, 0, n, loads.t);
     put(kin.rate.turning, 0, n, loads.turn);
     for (const Model::Segment& segment : model.segments)
@@ -80,7 +80,8 @@ Evaluation add_external(const Model& model, const State& reference, double t, co
   add(false);
   double power = 0.0;
   for (std::size_t i = 0; i < model.nodes; ++i) power += loads.load[i].dot(loads.v[i]);
-  for (std::size_t i = 0; i < model.nodes && model.turned; ++i) power += loads.torque[i].dot(loads.turn[i]);
+  for (std::size_t i = 0; i < model.nodes && model.acts_on_frames; ++i)
+    power += loads.torque[i].dot(loads.turn[i]);
   power += power_on_bodies(kin.bodies, loads.on_bodies);
   add(true);
   total += power;
@@ -112,8 +113,9 @@ double anchor_power(const Model& model, const Kinematics& kin, const Gradient& g
   assert(grad.made.fits(kin));
   double power = 0.0;
   for (const std::size_t i : model.driven_frames)
-    power += grad.tangent[i].dot(kin.t_rate(i)) +
-             (grad.spin[i] - (model.turned ? loads.torque[i].dot(kin.frame.z[i]) : 0.0)) * kin.spin[i];
+    power +=
+        grad.tangent[i].dot(kin.t_rate(i)) +
+        (grad.spin[i] - (model.acts_on_frames ? loads.torque[i].dot(kin.frame.z[i]) : 0.0)) * kin.spin[i];
   for (std::size_t k = 0; k < model.swivels.size(); ++k) {
     const Vec3 turning = kin.pose[model.swivels[k].anchor].angular_velocity;
     const Vec3 axis = model.swivels[k].of(kin.frame[model.swivels[k].node]);
@@ -241,14 +243,14 @@ bool add_spin_torques(const Model& model, const LoadColumns& loads, Eigen::Vecto
 Evaluation rates(const Model& model, const State& reference, double t, const Eigen::VectorXd& y,
                  Eigen::VectorXd& dy, System::Workspace& work) {
   auto& [kin, grad, loads, pull, tiles] = work;
-  const Motion what = model.turned ? Motion::all : Motion::springs;
+  const Motion what = model.acts_on_frames ? Motion::all : Motion::springs;
   if (const Evaluation at = kinematics(model, reference, t, y, what, kin); !at.ok()) return at;
   double heat = 0.0;
   if (const Evaluation at = elastic(model, reference, {true, true}, kin, grad, heat); !at.ok()) return at;
   double power = -heat;
   if (model.loaded) {
     if (const Evaluation at = add_external(model, reference, t, kin, loads, power); !at.ok()) return at;
-    if (model.turned) add_torques(model, loads, grad);
+    if (model.acts_on_frames) add_torques(model, loads, grad);
   }
   const bool by_edges = !model.loaded && model.attachments.empty();
   if (by_edges)
@@ -275,7 +277,7 @@ Evaluation rates(const Model& model, const State& reference, double t, const Eig
     dy[model.spin_begin() + model.twist_index[node]] +=
         model.damping[node] * (kin.spin[node] - kin.swivel_spin[k]);
   }
-  if (model.turned) finite &= add_spin_torques(model, loads, dy);
+  if (model.acts_on_frames) finite &= add_spin_torques(model, loads, dy);
   if (!model.bodies.empty()) finite &= body_rates(model, y, kin.bodies, loads.on_bodies, dy);
   dy[model.work_index()] = power;
   return finite ? Evaluation{} : Evaluation{Outcome::not_finite, 0};
@@ -332,14 +334,14 @@ Evaluation undifferentiated_loads(const Model& model, const State& reference, co
       force.acting->force->add(state, to);
   }
   if (const Evaluation at = outcome_of(refused); !at.ok()) return at;
-  if (model.turned) add_torques(model, loads, grad);
+  if (model.acts_on_frames) add_torques(model, loads, grad);
   pull_back(model, kin, grad, loads, pull);
   out.setZero(model.size());
   for (std::size_t i = 0; i < model.nodes; ++i) {
     out.segment<3>(model.v_begin() + 3 * static_cast<Eigen::Index>(i)) = pull.force[i];
     if (model.has_twist(i))
       out[model.spin_begin() + model.twist_index[i]] =
-          (model.turned ? loads.torque[i].dot(loads.t[i]) : 0.0) - grad.spin[i];
+          (model.acts_on_frames ? loads.torque[i].dot(loads.t[i]) : 0.0) - grad.spin[i];
   }
   put_body_loads(model, loads.on_bodies, out);
   return {};

@@ -26,7 +26,7 @@ System::Workspace::Workspace(const System::Model& model) {
     *numbers = Column(n, rank++);
   if (!model.loaded) return;
   for (auto* vectors : {&loads.p, &loads.v, &loads.load}) vectors->assign(n, Vec3::Zero());
-  if (!model.turned) return;
+  if (!model.acts_on_frames) return;
   for (auto* vectors : {&loads.t, &loads.m, &loads.turn, &loads.torque}) vectors->assign(n, Vec3::Zero());
   loads.spin.assign(n, 0.0);
 }

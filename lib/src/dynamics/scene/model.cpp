@@ -317,7 +317,7 @@ void Model::choose_forces() {
       acting.push_back({force.get(), f, force->has_energy(), force->refuses(), couplings_of(f)});
   }
   loaded = !acting.empty();
-  turned =
+  acts_on_frames =
       std::any_of(acting.begin(), acting.end(), [](const Acting& of) { return of.force->acts_on_frames(); });
 }
 

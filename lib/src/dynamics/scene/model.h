@@ -145,9 +145,9 @@ struct System::Model {
     bool varies() const { return static_cast<bool>(couplings.local()); }
   };
   std::vector<Acting> acting;
-  bool loaded = false;  ///< there are such
-  bool turned = false;  ///< some of them look at frames, or turn them
-  bool damped = false;  ///< some rod has mass damping
+  bool loaded = false;          ///< there are such
+  bool acts_on_frames = false;  ///< some of them does
+  bool damped = false;          ///< some rod has mass damping
 
   std::shared_ptr<const Tiles>
       tiles;  ///< of a large scene whose steps may be taken a part at a time; or null

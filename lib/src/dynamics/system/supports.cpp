@@ -34,7 +34,7 @@ Vec3 torque_on(const Model& model, const Anchor& anchor, std::size_t i, double t
   });
   const Vec3 tangent = work.kinematics.frame.z[i];
   double along = model.has_twist(i) ? work.gradient.spin[i] : 0.0;
-  if (model.turned) along -= work.loads.torque[i].dot(tangent);
+  if (model.acts_on_frames) along -= work.loads.torque[i].dot(tangent);
   return turned + tangent.cross(work.gradient.tangent[i]) + along * tangent;
 }
 

@@ -96,7 +96,7 @@ Energies System::energies(const State& state, Workspace& work) const {
   const Model& model = *model_;
   Energies result;
   auto& [kin, grad, loads, pull, tiles] = work;
-  const Motion what = model.turned ? Motion::all : Motion::springs;
+  const Motion what = model.acts_on_frames ? Motion::all : Motion::springs;
   if (!all_finite(state.y)) return result;
   if (!kinematics(model, state, state.time, state.y, what, kin).ok()) return result;
   if (!elastic_energy(model, state, kin, grad, result.elastic).ok()) return result;
