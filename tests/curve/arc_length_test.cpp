@@ -102,6 +102,16 @@ TEST(ArcLengthOf, ACurveThatRestsHasTheFirstParameter) {
   EXPECT_NEAR(arc.parameter_at(1.0), 1.0, 1e-15);
 }
 
+// Infinite lengths do not agree however small the cells are.
+TEST(ArcLengthOf, ASpeedWhoseSquareOverflowsIsRefused) {
+  const auto from_origin_to = [](double x) {
+    return test::uniform_curve(3, {Vec3::Zero(), x * Vec3::UnitX(), x * Vec3::UnitY(), Vec3::Zero()});
+  };
+  EXPECT_TRUE(std::isfinite(ArcLength(from_origin_to(1e150)).total()));
+  EXPECT_THROW(ArcLength(from_origin_to(1e155)), InvalidInput);
+  EXPECT_THROW(ArcLength(from_origin_to(1e307)), InvalidInput);
+}
+
 TEST(ArcLengthOf, NaNIsRefused) {
   const ArcLength arc(test::projection_curves().front().curve);
   EXPECT_THROW(arc.length_to(kNaN), InvalidInput);

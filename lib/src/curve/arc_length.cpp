@@ -76,6 +76,8 @@ ArcLength::ArcLength(const BSpline& curve)
     rough.push_back(gauss_length(curve, knots[i], knots[i + 1]));
     estimate += rough.back();
   }
+  if (!std::isfinite(estimate))
+    throw InvalidInput("ArcLength: control points", "a speed beyond 1e154", "squares within range");
   double reach = 0.0;
   for (const Vec3& u : curve.control_points()) reach = std::max(reach, u.norm());
   // Two results cannot agree better than c' is evaluated, which counts for a curve far from the origin or at

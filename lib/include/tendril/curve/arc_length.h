@@ -15,7 +15,7 @@ namespace tendril {
 /// independent of the curve afterwards.
 class TENDRIL_CORE_API ArcLength {
  public:
-  /// \param curve  copied; any, a single point included
+  /// \param curve  copied; any, a single point included. A speed whose square overflows is InvalidInput.
   explicit ArcLength(const BSpline& curve);
 
   double total() const { return lengths_.back(); }  ///< of the whole curve [length]
