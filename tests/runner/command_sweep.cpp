@@ -140,7 +140,6 @@ int run(const std::vector<std::string>& line) {
 }
 
 int sweep(std::uint64_t seed, int count, const std::filesystem::path& keep) {
-  std::map<int, int> ends;
   std::map<std::string, std::map<int, int>> by_command;
   int wrong = 0;
   std::string name = (std::filesystem::temp_directory_path() / "tendril-XXXXXX").string();
@@ -149,7 +148,6 @@ int sweep(std::uint64_t seed, int count, const std::filesystem::path& keep) {
     Lines lines(folder, seed * 1'000'003 + static_cast<std::uint64_t>(k));
     const std::vector<std::string> line = lines.next();
     const int end = run(line);
-    ++ends[end];
     ++by_command[line[1]][end];
     if (end < 0 || end > 2) {
       ++wrong;
