@@ -38,8 +38,14 @@ class Evaluator {
 
   using Pieces = std::vector<Piece<T>>;
   /// Slots [begin, end) of an order of nearest projections, the first of them to out[0]; blends are left out.
-  void evaluate(const Pieces& pieces, const Order& order, const Records<T>& records, std::size_t begin,
-                std::size_t end, const ColumnsView<T>& out) const;
+  /// \param records  from slot `begin` on
+  void evaluate(const Pieces& pieces, const Order& order, const RecordsView<T>& records, std::size_t begin,
+                std::size_t end, const ColumnsView<T>& out) const {
+    evaluate(pieces, order, order.index_of_run(begin), records, begin, end, out);
+  }
+  /// \param run  the index of that of slot `begin`, or of an earlier one
+  void evaluate(const Pieces& pieces, const Order& order, std::size_t run, const RecordsView<T>& records,
+                std::size_t begin, std::size_t end, const ColumnsView<T>& out) const;
   /// The point of a blend.
   /// \param nearest  where its nearest projection takes it
   /// \param map_of   of a node's index
@@ -60,8 +66,8 @@ class Evaluator {
   /// Slots of one run; true when one was left to the second pass.
   static bool evaluate_run(const Piece<T>& piece, bool off, const RecordsView<T>& records, std::size_t count,
                            const ColumnsView<T>& out);
-  void mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records, const Run& part,
-                       const ColumnsView<T>& out) const;
+  void mend_degenerate(const Piece<T>& piece, const Order& order, const RecordsView<T>& records,
+                       const Run& part, const ColumnsView<T>& out) const;
   Triple<T> evaluate_by_rule(std::uint32_t entry) const;
   /// \param piece_of  of a span's index
   template <class PieceOf>
@@ -89,10 +95,10 @@ Triple<T> Evaluator<T>::evaluate_by_rule(std::uint32_t entry) const {
 
 /// Where the loops found the frame near degenerate: by the rules of CurvePair::frame.
 template <class T>
-void Evaluator<T>::mend_degenerate(const Piece<T>& piece, const Order& order, const Records<T>& records,
+void Evaluator<T>::mend_degenerate(const Piece<T>& piece, const Order& order, const RecordsView<T>& records,
                                    const Run& part, const ColumnsView<T>& out) const {
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (!evaluate_one(piece, part.off, records.from(i)).fault) continue;
+    if (!evaluate_one(piece, part.off, records.from(i - part.begin)).fault) continue;
     const Triple<T> p = evaluate_by_rule(order.entry[i]);
     out.x[i - part.begin] = p.x;
     out.y[i - part.begin] = p.y;
@@ -116,16 +122,18 @@ bool Evaluator<T>::evaluate_run(const Piece<T>& piece, bool off, const RecordsVi
 }
 
 template <class T>
-void Evaluator<T>::evaluate(const Pieces& pieces, const Order& order, const Records<T>& records,
-                            std::size_t begin, std::size_t end, const ColumnsView<T>& out) const {
-  auto run = std::upper_bound(order.runs.begin(), order.runs.end(), begin,
-                              [](std::size_t at, const Run& r) { return at < r.end; });
-  for (; run != order.runs.end() && run->begin < end; ++run) {
-    const Run part{run->span, std::max(run->begin, static_cast<std::uint32_t>(begin)),
-                   std::min(run->end, static_cast<std::uint32_t>(end)), run->off};
+void Evaluator<T>::evaluate(const Pieces& pieces, const Order& order, std::size_t first,
+                            const RecordsView<T>& records, std::size_t begin, std::size_t end,
+                            const ColumnsView<T>& out) const {
+  for (std::size_t i = first; i < order.runs.size() && order.runs[i].begin < end; ++i) {
+    const Run& run = order.runs[i];
+    if (run.end <= begin) continue;
+    const Run part{run.span, std::max(run.begin, static_cast<std::uint32_t>(begin)),
+                   std::min(run.end, static_cast<std::uint32_t>(end)), run.off};
     const ColumnsView<T> to = out.from(part.begin - begin);
-    if (evaluate_run(pieces[part.span], part.off, records.from(part.begin), part.end - part.begin, to))
-      mend_degenerate(pieces[part.span], order, records, part, to);
+    const RecordsView<T> from = records.from(part.begin - begin);
+    if (evaluate_run(pieces[part.span], part.off, from, part.end - part.begin, to))
+      mend_degenerate(pieces[part.span], order, from, part, to);
   }
 }
 
@@ -222,7 +230,7 @@ template <class T>
 void Evaluator<T>::update(const ColumnsView<T>& out, int threads) const {
   const Pieces pieces = pose<T>(layout_.spans, posed_);
   in_parts(layout_.size, threads, kPointsWorthAThread, [&](std::size_t begin, std::size_t end) {
-    evaluate(pieces, layout_.nearest, numbers_.nearest, begin, end, out.from(begin));
+    evaluate(pieces, layout_.nearest, numbers_.nearest.from(begin), begin, end, out.from(begin));
   });
   struct Access {
     const ColumnsView<T>& out;
@@ -246,7 +254,8 @@ void Evaluator<T>::update(Row* out, int threads) const {
     std::array<T, kBlock> x, y, z;
     for (std::size_t at = begin; at < end; at += kBlock) {
       const std::size_t count = std::min(kBlock, end - at);
-      evaluate(pieces, layout_.nearest, numbers_.nearest, at, at + count, {x.data(), y.data(), z.data()});
+      evaluate(pieces, layout_.nearest, numbers_.nearest.from(at), at, at + count,
+               {x.data(), y.data(), z.data()});
       for (std::size_t i = 0; i < count; ++i) out[layout_.nearest.entry[at + i]] = Row(x[i], y[i], z[i]);
     }
   });

@@ -36,6 +36,12 @@ const Run& Order::run_of(std::size_t slot) const {
   return *std::prev(after);
 }
 
+std::size_t Order::index_of_run(std::size_t slot) const {
+  const auto found = std::upper_bound(runs.begin(), runs.end(), slot,
+                                      [](std::size_t at, const Run& run) { return at < run.end; });
+  return static_cast<std::size_t>(found - runs.begin());
+}
+
 const BindingLayout::Blend* BindingLayout::blend_of(std::size_t point) const {
   const auto found = std::lower_bound(blends.begin(), blends.end(), point,
                                       [](const Blend& blend, std::size_t p) { return blend.point < p; });

@@ -18,6 +18,8 @@ struct Order {
   std::vector<Run> runs;
 
   const Run& run_of(std::size_t slot) const;
+  /// The first run that does not end before the slot.
+  std::size_t index_of_run(std::size_t slot) const;
 };
 
 /// A binding on flat arrays. Its entries are the nearest projection of every point; what else points are

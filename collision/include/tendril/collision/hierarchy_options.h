@@ -12,7 +12,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// How an AxialHierarchy is made and used.
 struct HierarchyOptions {
-  /// Slabs: twice the root of the number of cells, at least 64, at most this; a span has at least one.
+  /// Slabs: 0.6 times the root of the number of cells, at least 24, at most this; a span has at least one.
   std::size_t most_slabs = 256;
   /// The share of cells in a pose after which all others are deformed and boxed too.
   double refit_share = 0.25;

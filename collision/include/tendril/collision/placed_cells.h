@@ -1,21 +1,12 @@
 #pragma once
 
 #include <tendril/base/export.h>
-#include <tendril/collision/box_tree.h>
 #include <tendril/collision/hierarchy_options.h>
+#include <tendril/collision/placed_triangle.h>
 #include <tendril/curve/bound_points.h>
-
-#include <array>
 
 /// What AxialHierarchy stands on: cells of triangles, and the boxes above and within them.
 namespace tendril::collision {
-
-/// A triangle as a query sees it.
-struct PlacedTriangle {
-  std::uint32_t index;          ///< among the triangles given
-  std::array<Vec3, 3> corners;  ///< the very doubles of the updated mesh
-  Box box;                      ///< of the corners, exact
-};
 
 /// Made, posed and asked as AxialHierarchy is; a node's children may be looked at once it is no cell, or
 /// opened.
@@ -57,22 +48,26 @@ class TENDRIL_COLLISION_API PlacedCells {
   void pose(std::span<const CurvePair> posed);                  ///< as AxialHierarchy::pose
   void refit();                                                 ///< as AxialHierarchy::refit
   HierarchyWork work() const;                                   ///< since the last pose
-  std::size_t triangle_count() const { return order_.size(); }  ///< in all
+  std::size_t triangle_count() const { return items_.size(); }  ///< in all
 
   /// The node of all triangles.
-  Node root() const { return {0, 0, 0, (order_.size() + kLeaf - 1) / kLeaf}; }
+  Node root() const { return {0, 0, 0, (items_.size() + kLeaf - 1) / kLeaf}; }
   /// About all of the node's triangles in this pose.
-  const Box& box(const Node& n) { return n.meta == Node::kNone || current(n.meta) ? boxes_[n.box] : make(n); }
+  const Box& box(const Node& n) {
+    if (n.meta == Node::kNone) return boxes_[n.box];
+    return kept_[n.meta].made == frame_ ? kept_[n.meta].box : make(n);
+  }
   /// Deforms a cell; true when its box is another one now. Nothing on other nodes.
   bool open(const Node& n) { return n.cell() && enter(n); }
 
   /// Calls visit for the triangles of an opened leaf.
   template <class Visit>
   void triangles(const Node& leaf, Visit&& visit) const {
-    const std::size_t begin = leaf.begin * kLeaf, end = std::min(begin + kLeaf, order_.size());
-    const Vec3* at = placed_.data() + first_[leaf.begin / kCell];
+    const std::size_t begin = leaf.begin * kLeaf, end = std::min(begin + kLeaf, items_.size());
+    const Vec3* at = placed_.data() + cells_[leaf.begin / kCell].first;
     for (std::size_t i = begin; i < end; ++i) {
-      PlacedTriangle t{order_[i], {at[corner_[i][0]], at[corner_[i][1]], at[corner_[i][2]]}, {}};
+      const auto& [a, b, c] = items_[i].corner;
+      PlacedTriangle t{items_[i].triangle, {at[a], at[b], at[c]}, {}};
       t.box = {t.corners[0].cwiseMin(t.corners[1]).cwiseMin(t.corners[2]),
                t.corners[0].cwiseMax(t.corners[1]).cwiseMax(t.corners[2])};
       visit(t);
@@ -81,18 +76,31 @@ class TENDRIL_COLLISION_API PlacedCells {
 
  private:
   struct Lazy;
-  bool current(std::size_t meta) const { return made_[meta] == frame_; }
+  /// Of a node above cells, or a cell: what a query comes for first lies together.
+  struct alignas(64) Kept {
+    Box box;
+    std::uint32_t made = 0;           ///< frame of the box
+    std::uint32_t more = 0, end = 0;  ///< its patches besides the first, see Lazy
+  };
+  struct Cell {
+    std::uint32_t first;                    ///< of its points, which end where the next cell's begin
+    std::uint32_t placed = 0, touched = 0;  ///< frames in which it was last
+  };
+  struct Item {
+    std::uint32_t triangle;
+    std::array<std::uint8_t, 3> corner;  ///< among the points of the cell
+  };
+  Box& box_within(const Node& n) { return n.meta == Node::kNone ? boxes_[n.box] : kept_[n.meta].box; }
   const Box& make(const Node& n);
   bool enter(const Node& n);
   void place(const Node& n);
   void fit(const Node& n);
   void refit(const Node& n);
 
-  std::vector<Box> boxes_;
-  std::vector<std::uint32_t> made_;                  ///< frame of each box above cells
-  std::vector<std::uint32_t> order_;                 ///< triangles, cell by cell
-  std::vector<std::array<std::uint8_t, 3>> corner_;  ///< among the points of the cell
-  std::vector<std::uint32_t> first_;                 ///< of each cell, among placed_
+  std::vector<Kept> kept_;   ///< by Node::meta
+  std::vector<Box> boxes_;   ///< within cells, by Node::box
+  std::vector<Item> items_;  ///< cell by cell
+  std::vector<Cell> cells_;  ///< and one behind the last
   std::vector<Vec3> placed_;
   std::uint32_t frame_ = 0;
   std::unique_ptr<Lazy> lazy_;

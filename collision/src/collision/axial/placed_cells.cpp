@@ -16,25 +16,27 @@ constexpr std::size_t kMostPatches = 4;
 /// Grows as the root of the number of cells: slabs finer than the cells along the curve gain nothing, and
 /// what they cost must not follow the size of the mesh.
 std::size_t slabs_for(std::size_t cells, std::size_t most) {
-  const auto wanted = static_cast<std::size_t>(2.0 * std::sqrt(static_cast<double>(cells)));
-  return std::min(std::max<std::size_t>(64, wanted), most);
+  const auto wanted = static_cast<std::size_t>(0.6 * std::sqrt(static_cast<double>(cells)));
+  return std::min(std::max<std::size_t>(24, wanted), most);
 }
 
-struct Bounded {
+struct alignas(64) Bounded {
   std::uint32_t first, last;  ///< slabs
   AxialRange range;
 };
+
+/// Memory that will be wanted soon: a frame comes to most of it once, when it is in no cache.
+[[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
+  const char* at = static_cast<const char*>(from);
+  for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(at + i);
+}
 
 }  // namespace
 
 /// All that a query needs before it comes to a cell.
 struct PlacedCells::Lazy {
   Lazy(std::span<const CurvePair> rest, std::size_t cells, const HierarchyOptions& given)
-      : slabs(rest, slabs_for(cells, given.most_slabs)),
-        options(given),
-        patch_begin(2 * cells),
-        placed_at(cells, 0),
-        touched_at(cells, 0) {
+      : slabs(rest, slabs_for(cells, given.most_slabs)), options(given) {
     work.cells = cells;
   }
 
@@ -69,58 +71,57 @@ struct PlacedCells::Lazy {
     }
     return out;
   }
-  /// The nodes' patches in one row.
-  void pack() {
+  /// The nodes' patches in two rows.
+  void pack(std::vector<Kept>& kept) {
     for (std::size_t i = 0; i < of_node.size(); ++i) {
-      patch_begin[i] = static_cast<std::uint32_t>(patches.size());
-      patches.insert(patches.end(), of_node[i].begin(), of_node[i].end());
+      first.push_back(of_node[i].front());
+      kept[i].more = static_cast<std::uint32_t>(more.size());
+      more.insert(more.end(), of_node[i].begin() + 1, of_node[i].end());
+      kept[i].end = static_cast<std::uint32_t>(more.size());
     }
-    patch_begin[of_node.size()] = static_cast<std::uint32_t>(patches.size());
     of_node = {};
   }
 
-  std::span<const Bounded> patches_at(std::size_t meta) const {
-    return std::span(patches).subspan(patch_begin[meta], patch_begin[meta + 1] - patch_begin[meta]);
-  }
-  std::uint32_t last_change(std::size_t meta) const {
-    std::uint32_t frame = 0;
-    for (const Bounded& p : patches_at(meta)) frame = std::max(frame, slabs.last_change(p.first, p.last));
+  std::uint32_t last_change(std::size_t meta, const Kept& of) const {
+    std::uint32_t frame = slabs.last_change(first[meta].first, first[meta].last);
+    for (std::size_t i = of.more; i < of.end; ++i)
+      frame = std::max(frame, slabs.last_change(more[i].first, more[i].last));
     return frame;
   }
-  Box box(std::size_t meta) {
-    const auto all = patches_at(meta);
-    Box out = slabs.box(all[0].first, all[0].last, all[0].range);
-    for (const Bounded& p : all.subspan(1)) out = join(out, slabs.box(p.first, p.last, p.range));
+  Box box(std::size_t meta, const Kept& of) {
+    Box out = slabs.box(first[meta].first, first[meta].last, first[meta].range);
+    for (std::size_t i = of.more; i < of.end; ++i)
+      out = join(out, slabs.box(more[i].first, more[i].last, more[i].range));
     return out;
   }
 
   SlabTable slabs;
   HierarchyOptions options;
   std::vector<std::vector<Bounded>> of_node;
-  std::vector<std::uint32_t> patch_begin;
-  std::vector<Bounded> patches;
+  std::vector<Bounded> first, more;  ///< patches: of each node one, and those besides
   std::vector<BoundShare> shares;
   std::unique_ptr<PointGroups> groups;
-  std::vector<std::uint32_t> placed_at, touched_at;  ///< frames, of each cell
-  bool refit_due = false;                            ///< the pose before had all of it touched
+  bool refit_due = false;  ///< the pose before had all of it touched
   HierarchyWork work;
 };
 
 PlacedCells::PlacedCells(std::span<const CurvePair> rest, const BoundPoints& points,
-                         std::span<const Triangle> triangles, const HierarchyOptions& options)
-    : order_(axial_order(rest, points, triangles)) {
-  CellPoints cells = cell_points(order_, triangles, points.size());
+                         std::span<const Triangle> triangles, const HierarchyOptions& options) {
+  const std::vector<std::uint32_t> order = axial_order(rest, points, triangles);
+  CellPoints cells = cell_points(order, triangles, points.size());
   const std::size_t count = cells.begin.size() - 1;
+  items_.reserve(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) items_.push_back({order[i], cells.corner[i]});
   lazy_ = std::make_unique<Lazy>(rest, count, options);
   lazy_->of_node.resize(2 * count - 1);
   lazy_->set_patches(root(), cells, points);
-  lazy_->pack();
+  kept_.resize(2 * count - 1);
+  lazy_->pack(kept_);
   lazy_->groups = points.group(cells.begin, cells.points);
-  boxes_.resize(2 * root().size() - 1);
-  made_.assign(2 * count - 1, 0);
-  placed_.resize(cells.points.size());
-  corner_ = std::move(cells.corner);
-  first_ = std::move(cells.begin);
+  // Written now, or the first query that comes to a page would wait for the system to clear it.
+  boxes_.assign(2 * root().size() - 1, {Vec3::Zero(), Vec3::Zero()});
+  placed_.assign(cells.points.size(), Vec3::Zero());
+  for (const std::uint32_t first : cells.begin) cells_.push_back({first});
   pose(rest);
 }
 
@@ -148,25 +149,31 @@ HierarchyWork PlacedCells::work() const {
 }
 
 const Box& PlacedCells::make(const Node& n) {
+  Kept& kept = kept_[n.meta];
   // A box made in an earlier frame still holds where no slab beneath the node has changed since.
   if (lazy_->refit_due) {
     refit();
-  } else if (made_[n.meta] == 0 || lazy_->last_change(n.meta) > made_[n.meta]) {
-    boxes_[n.box] = lazy_->box(n.meta);
+  } else if (kept.made == 0 || lazy_->last_change(n.meta, kept) > kept.made) {
+    if (!n.cell())
+      for (const Node& child : {n.left(), n.right()}) {
+        fetch(&kept_[child.meta], sizeof(Kept));
+        fetch(&lazy_->first[child.meta], sizeof(Bounded));
+      }
+    kept.box = lazy_->box(n.meta, kept);
     ++lazy_->work.boxes;
   }
-  made_[n.meta] = frame_;
-  return boxes_[n.box];
+  kept.made = frame_;
+  return kept.box;
 }
 
 bool PlacedCells::enter(const Node& n) {
-  const std::size_t cell = n.begin / kCell;
+  Cell& cell = cells_[n.begin / kCell];
   HierarchyWork& work = lazy_->work;
-  if (lazy_->touched_at[cell] != frame_) {
-    lazy_->touched_at[cell] = frame_;
+  if (cell.touched != frame_) {
+    cell.touched = frame_;
     ++work.touched;
   }
-  if (lazy_->placed_at[cell] == frame_) return false;
+  if (cell.placed == frame_) return false;
   place(n);
   if (static_cast<double>(work.placed) > lazy_->options.refit_share * static_cast<double>(work.cells))
     refit();
@@ -174,15 +181,20 @@ bool PlacedCells::enter(const Node& n) {
 }
 
 void PlacedCells::place(const Node& n) {
-  const std::size_t cell = n.begin / kCell;
-  std::uint32_t& at = lazy_->placed_at[cell];
-  if (at == 0 || lazy_->last_change(n.meta) > at) {
-    lazy_->groups->place(cell, MutablePoints(placed_).subspan(first_[cell], first_[cell + 1] - first_[cell]));
+  const std::size_t index = n.begin / kCell;
+  Cell& cell = cells_[index];
+  if (cell.placed == 0 || lazy_->last_change(n.meta, kept_[n.meta]) > cell.placed) {
+    const std::size_t begin = n.begin * kLeaf, end = std::min(begin + kCell * kLeaf, items_.size());
+    const std::size_t points = cells_[index + 1].first - cell.first;
+    fetch(&items_[begin], (end - begin) * sizeof(Item));
+    fetch(&placed_[cell.first], points * sizeof(Vec3));
+    fetch(&boxes_[n.box], (2 * n.size() - 1) * sizeof(Box));
+    lazy_->groups->place(index, MutablePoints(placed_).subspan(cell.first, points));
     fit(n);
     ++lazy_->work.placed;
   }
-  at = frame_;
-  made_[n.meta] = frame_;
+  cell.placed = frame_;
+  kept_[n.meta].made = frame_;
 }
 
 /// Exact boxes within a cell.
@@ -190,18 +202,19 @@ void PlacedCells::fit(const Node& n) {
   if (!n.leaf()) {
     fit(n.left());
     fit(n.right());
-    boxes_[n.box] = join(boxes_[n.left().box], boxes_[n.right().box]);
+    box_within(n) = join(boxes_[n.left().box], boxes_[n.right().box]);
     return;
   }
-  const Vec3* at = placed_.data() + first_[n.begin / kCell];
-  const std::size_t begin = n.begin * kLeaf, end = std::min(begin + kLeaf, order_.size());
-  Vec3 low = at[corner_[begin][0]], high = low;
-  for (std::size_t i = begin; i < end; ++i)
-    for (const std::uint8_t corner : corner_[i]) {
-      low = low.cwiseMin(at[corner]);
-      high = high.cwiseMax(at[corner]);
-    }
-  boxes_[n.box] = {low, high};
+  const Vec3* at = placed_.data() + cells_[n.begin / kCell].first;
+  const std::size_t begin = n.begin * kLeaf, end = std::min(begin + kLeaf, items_.size());
+  Box all{at[items_[begin].corner[0]], at[items_[begin].corner[0]]};
+  for (std::size_t i = begin; i < end; ++i) {
+    // Each triangle's first: the processor works at several.
+    const auto& [a, b, c] = items_[i].corner;
+    all.low = all.low.cwiseMin(at[a].cwiseMin(at[b]).cwiseMin(at[c]));
+    all.high = all.high.cwiseMax(at[a].cwiseMax(at[b]).cwiseMax(at[c]));
+  }
+  box_within(n) = all;
 }
 
 void PlacedCells::refit() {
@@ -213,13 +226,13 @@ void PlacedCells::refit() {
 
 void PlacedCells::refit(const Node& n) {
   if (n.cell()) {
-    if (lazy_->placed_at[n.begin / kCell] != frame_) place(n);
+    if (cells_[n.begin / kCell].placed != frame_) place(n);
     return;
   }
   refit(n.left());
   refit(n.right());
-  boxes_[n.box] = join(boxes_[n.left().box], boxes_[n.right().box]);
-  made_[n.meta] = frame_;
+  kept_[n.meta].box = join(kept_[n.left().meta].box, kept_[n.right().meta].box);
+  kept_[n.meta].made = frame_;
 }
 
 }  // namespace tendril::collision
