@@ -128,6 +128,7 @@ TEST(BindingPoints, PlaceGroupsAsAnUpdateDoes) {
       members.push_back(static_cast<std::uint32_t>(random.integer(static_cast<int>(binding.size()))));
     begin.push_back(static_cast<std::uint32_t>(members.size()));
   }
+  begin.push_back(begin.back());
   const auto groups = points.group(begin, members);
   for (int i = 0; i < 5; ++i) {
     const std::vector<CurvePair> posed{thrown(rest[0], random), thrown(rest[1], random)};
@@ -174,6 +175,8 @@ TEST(BindingPoints, RefuseBadInput) {
   std::vector<BoundShare> out;
   EXPECT_THROW(points.shares(3, out), InvalidInput);
   EXPECT_THROW(points.group(List{0, 1}, List{1})->pose({}), InvalidInput);
+  std::vector<Vec3> at(1);
+  EXPECT_THROW(points.group(List{0, 1}, List{1})->place(0, at), InvalidInput);
 }
 
 }  // namespace

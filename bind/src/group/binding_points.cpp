@@ -44,6 +44,7 @@ class Groups : public PointGroups {
 
   void pose(std::span<const CurvePair> posed) override {
     layout_->require_same_knots(posed);
+    evaluator_.reset();
     posed_.assign(posed.begin(), posed.end());
     pieces_ = bind::pose<double>(layout_->spans, posed_);
     evaluator_.emplace(*layout_, layout_->numbers, posed_);

@@ -29,6 +29,7 @@ class TENDRIL_CORE_API PointGroups {
   virtual void pose(std::span<const CurvePair> posed) = 0;
 
   /// The points of a group in the order they were given, bit for bit where an update of all puts them.
+  /// Throws InvalidInput where there was no pose().
   /// \param group  its index
   /// \param out    as many as the group has
   virtual void place(std::size_t group, MutablePoints out) const = 0;
