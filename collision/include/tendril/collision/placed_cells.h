@@ -79,8 +79,8 @@ class TENDRIL_COLLISION_API PlacedCells {
   /// Of a node above cells, or a cell: what a query comes for first lies together.
   struct alignas(64) Kept {
     Box box;
-    std::uint32_t made = 0;           ///< frame of the box
-    std::uint32_t more = 0, end = 0;  ///< its patches besides the first, see Lazy
+    std::uint32_t made = 0;                      ///< frame of the box
+    std::uint32_t more_begin = 0, more_end = 0;  ///< its patches besides the first, see Lazy
   };
   struct Cell {
     std::uint32_t first;                    ///< of its points, which end where the next cell's begin
@@ -90,7 +90,7 @@ class TENDRIL_COLLISION_API PlacedCells {
     std::uint32_t triangle;
     std::array<std::uint8_t, 3> corner;  ///< among the points of the cell
   };
-  Box& box_within(const Node& n) { return n.meta == Node::kNone ? boxes_[n.box] : kept_[n.meta].box; }
+  Box& kept_box(const Node& n) { return n.meta == Node::kNone ? boxes_[n.box] : kept_[n.meta].box; }
   const Box& make(const Node& n);
   bool enter(const Node& n);
   void place(const Node& n);

@@ -1,6 +1,7 @@
 #include <tendril/collision/placed_cells.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cell_order.h"
 #include "patches.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr std::size_t kMostPatches = 4;
 
 /// Grows as the root of the number of cells: slabs finer than the cells along the curve gain nothing, and
-/// what they cost must not follow the size of the mesh.
+/// what they cost must not follow the size of the mesh. The numbers weigh what a slab costs against cells
+/// entered in vain, by hierarchy_bench; the least is by culling_test.
 std::size_t slabs_for(std::size_t cells, std::size_t most) {
   const auto wanted = static_cast<std::size_t>(0.6 * std::sqrt(static_cast<double>(cells)));
   return std::min(std::max<std::size_t>(24, wanted), most);
@@ -25,7 +27,8 @@ struct alignas(64) Bounded {
   AxialRange range;
 };
 
-/// Memory that will be wanted soon: a frame comes to most of it once, when it is in no cache.
+/// Memory that will be wanted soon: a frame comes to most of it once, when it is in no cache. In place: g++
+/// drops calls of a function that only fetches.
 [[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
   const char* at = static_cast<const char*>(from);
   for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(at + i);
@@ -74,31 +77,36 @@ struct PlacedCells::Lazy {
   /// The nodes' patches in two rows.
   void pack(std::vector<Kept>& kept) {
     for (std::size_t i = 0; i < of_node.size(); ++i) {
-      first.push_back(of_node[i].front());
-      kept[i].more = static_cast<std::uint32_t>(more.size());
-      more.insert(more.end(), of_node[i].begin() + 1, of_node[i].end());
-      kept[i].end = static_cast<std::uint32_t>(more.size());
+      patches.push_back(of_node[i].front());
+      kept[i].more_begin = static_cast<std::uint32_t>(more_patches.size());
+      more_patches.insert(more_patches.end(), of_node[i].begin() + 1, of_node[i].end());
+      kept[i].more_end = static_cast<std::uint32_t>(more_patches.size());
     }
     of_node = {};
   }
 
+  template <class Visit>
+  void each_patch(std::size_t meta, const Kept& of, Visit&& visit) const {
+    visit(patches[meta]);
+    for (std::size_t i = of.more_begin; i < of.more_end; ++i) visit(more_patches[i]);
+  }
   std::uint32_t last_change(std::size_t meta, const Kept& of) const {
-    std::uint32_t frame = slabs.last_change(first[meta].first, first[meta].last);
-    for (std::size_t i = of.more; i < of.end; ++i)
-      frame = std::max(frame, slabs.last_change(more[i].first, more[i].last));
+    std::uint32_t frame = 0;
+    each_patch(meta, of,
+               [&](const Bounded& p) { frame = std::max(frame, slabs.last_change(p.first, p.last)); });
     return frame;
   }
   Box box(std::size_t meta, const Kept& of) {
-    Box out = slabs.box(first[meta].first, first[meta].last, first[meta].range);
-    for (std::size_t i = of.more; i < of.end; ++i)
-      out = join(out, slabs.box(more[i].first, more[i].last, more[i].range));
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Box out{Vec3::Constant(far), Vec3::Constant(-far)};
+    each_patch(meta, of, [&](const Bounded& p) { out = join(out, slabs.box(p.first, p.last, p.range)); });
     return out;
   }
 
   SlabTable slabs;
   HierarchyOptions options;
   std::vector<std::vector<Bounded>> of_node;
-  std::vector<Bounded> first, more;  ///< patches: of each node one, and those besides
+  std::vector<Bounded> patches, more_patches;  ///< one of each node, all that most have; the others'
   std::vector<BoundShare> shares;
   std::unique_ptr<PointGroups> groups;
   bool refit_due = false;  ///< the pose before had all of it touched
@@ -157,7 +165,7 @@ const Box& PlacedCells::make(const Node& n) {
     if (!n.cell())
       for (const Node& child : {n.left(), n.right()}) {
         fetch(&kept_[child.meta], sizeof(Kept));
-        fetch(&lazy_->first[child.meta], sizeof(Bounded));
+        fetch(&lazy_->patches[child.meta], sizeof(Bounded));
       }
     kept.box = lazy_->box(n.meta, kept);
     ++lazy_->work.boxes;
@@ -202,7 +210,7 @@ void PlacedCells::fit(const Node& n) {
   if (!n.leaf()) {
     fit(n.left());
     fit(n.right());
-    box_within(n) = join(boxes_[n.left().box], boxes_[n.right().box]);
+    kept_box(n) = join(boxes_[n.left().box], boxes_[n.right().box]);
     return;
   }
   const Vec3* at = placed_.data() + cells_[n.begin / kCell].first;
@@ -214,7 +222,7 @@ void PlacedCells::fit(const Node& n) {
     all.low = all.low.cwiseMin(at[a].cwiseMin(at[b]).cwiseMin(at[c]));
     all.high = all.high.cwiseMax(at[a].cwiseMax(at[b]).cwiseMax(at[c]));
   }
-  box_within(n) = all;
+  kept_box(n) = all;
 }
 
 void PlacedCells::refit() {
