@@ -56,6 +56,7 @@ SelfMesh::SelfMesh(const ContactSurface& surface) {
   measure(surface);
   find_parts(surface);
   find_patches(surface);
+  line_up(surface);
 }
 
 void SelfMesh::find_edges(const ContactSurface& surface) {
@@ -139,6 +140,19 @@ void SelfMesh::find_patches(const ContactSurface& surface) {
       patches.push_back(std::move(patch));
     }
   }
+}
+
+void SelfMesh::line_up(const ContactSurface& surface) {
+  for (const SelfPatch& patch : patches) {
+    padded_begin.push_back(static_cast<std::uint32_t>(padded.size()));
+    padded.insert(padded.end(), patch.corners.begin(), patch.corners.end());
+    while (padded.size() % kLane != 0) padded.push_back(patch.corners.back());
+    spans_begin.push_back(static_cast<std::uint32_t>(spans_of.size()));
+    spans_of.insert(spans_of.end(), patch.spans.begin(), patch.spans.end());
+    amidst.push_back(surface.triangles[patch.faces[patch.faces.size() / 2]]);
+  }
+  spans_begin.push_back(static_cast<std::uint32_t>(spans_of.size()));
+  padded_begin.push_back(static_cast<std::uint32_t>(padded.size()));
 }
 
 }  // namespace tendril::contact

@@ -34,6 +34,13 @@ struct SelfMesh {
   std::vector<UsedSpan> spans;
   std::vector<std::vector<std::uint32_t>> bound_to;  ///< per span: vertices with a share in it
   std::vector<SelfPatch> patches;
+  /// Corners of all patches one after the other, those of p from padded_begin[p] on, each patch's last
+  /// repeated until it has a multiple of kLane.
+  std::vector<std::uint32_t> padded, padded_begin;
+  static constexpr std::size_t kLane = 4;
+  /// The spans of all patches likewise, not padded; and per patch, the corners of a face in its midst.
+  std::vector<std::uint32_t> spans_of, spans_begin;
+  std::vector<std::array<std::uint32_t, 3>> amidst;
   std::vector<SelfEdge> edges;
   std::vector<std::array<std::uint32_t, 3>> edges_of;  ///< per face; edge i from corner i to the next
   std::vector<double> area;                            ///< per vertex: a third of that of its faces
@@ -46,6 +53,7 @@ struct SelfMesh {
   void measure(const ContactSurface& surface);
   void find_parts(const ContactSurface& surface);
   void find_patches(const ContactSurface& surface);
+  void line_up(const ContactSurface& surface);
 };
 
 }  // namespace tendril::contact

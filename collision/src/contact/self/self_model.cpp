@@ -161,12 +161,6 @@ double SelfModel::far_at_most(std::size_t span, const RodPose& from, const Curve
   return most * (1.0 + 1e-9);
 }
 
-double SelfModel::of_patch(std::uint32_t patch, std::span<const double> motions) const {
-  double most = 0.0;
-  for (const std::uint32_t span : mesh.patches[patch].spans) most = std::max(most, motions[span]);
-  return most;
-}
-
 std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
   std::vector<std::uint32_t> all(surface.rest.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;

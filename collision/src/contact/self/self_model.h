@@ -106,7 +106,12 @@ struct SelfModel {
   /// And by curves. Some us.
   void motions(std::size_t rod, const RodPose& from, const CurvePair& now, std::span<double> motions) const;
   /// Of a patch: a blended vertex moves as a mean of the points it is made of.
-  double of_patch(std::uint32_t patch, std::span<const double> motions) const;
+  double of_patch(std::uint32_t patch, std::span<const double> motions) const {
+    double most = 0.0;
+    for (std::size_t i = mesh.spans_begin[patch]; i < mesh.spans_begin[patch + 1]; ++i)
+      most = std::max(most, motions[mesh.spans_of[i]]);
+    return most;
+  }
 
   /// Pairs of patches nearer than where response begins and both margins. `at` are all vertices.
   std::shared_ptr<const SelfList> search(std::span<const Vec3> at, std::vector<double> margin) const;

@@ -1,7 +1,10 @@
 #include <tendril/collision/box_tree.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "float_boxes.h"
+#include "patch_points.h"
 #include "self_model.h"
 
 namespace tendril::contact {
@@ -21,38 +24,20 @@ Box widened(Box box, double by) {
 class SelfSearch {
  public:
   SelfSearch(const SelfModel& model, std::span<const Vec3> at, SelfList& list)
-      : model_(model), mesh_(model.mesh), at_(at), list_(list) {}
+      : model_(model), mesh_(model.mesh), at_(at), list_(list), points_(mesh_, at) {}
 
   void run() {
     std::vector<Box> wide;
-    for (const SelfPatch& patch : mesh_.patches) {
-      boxes_.push_back(box_of(patch.corners, at_));
-      margin_.push_back(model_.of_patch(static_cast<std::uint32_t>(margin_.size()), list_.margin));
-      wide.push_back(widened(boxes_.back(), 0.5 * model_.meets() + margin_.back()));
-      if (model_.which == Meets::all) rest_.push_back(resting(patch));
+    for (std::uint32_t p = 0; p < mesh_.patches.size(); ++p) {
+      margin_.push_back(model_.of_patch(p, list_.margin));
+      wide.push_back(widened(points_.box(p), 0.5 * model_.meets() + margin_.back()));
+      if (model_.which == Meets::all) rest_.push_back(resting(mesh_.patches[p]));
     }
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
-    const auto take = [&](std::uint32_t a, std::uint32_t b) {
-      if (a > b) std::swap(a, b);
-      if (wide[a].meets(wide[b]) && !keeps_apart(a, b)) near.emplace_back(a, b);
-    };
     const std::vector<Part> parts = parts_of(wide);
-    std::vector<Box> part_boxes;
-    for (const Part& part : parts) part_boxes.push_back(part.box);
-    const collision::BoxTree tree(part_boxes);
-    tree.pairs(tree, [&](std::size_t a, std::size_t b) {
-      if (a < b) look_for_patches(parts[a], parts[b], wide, take);
-    });
-    if (model_.which == Meets::all) {
-      const collision::BoxTree all(wide);
-      all.pairs(all, [&](std::size_t a, std::size_t b) {
-        const auto p = static_cast<std::uint32_t>(a), q = static_cast<std::uint32_t>(b);
-        if (p <= q && mesh_.patches[p].part == mesh_.patches[q].part) take(p, q);
-      });
-    }
+    wide_.take(wide);
     // In an order of their own, not of the trees: sums over groups are the same whatever the boxes were.
-    std::sort(near.begin(), near.end());
-    for (const auto& [p, q] : near) look(p, q);
+    for (const auto& [a, b] : meeting_parts(parts)) look_between(parts[a], parts[b]);
+    if (model_.which == Meets::all) look_within_parts(wide);
     sort_by_rod();
   }
 
@@ -64,12 +49,11 @@ class SelfSearch {
     Mat3 turned;  ///< zero where a face has no area
   };
 
-  /// What is connected: patches [begin, end).
+  /// What is connected: patches [begin, end), which follow each other.
   struct Part {
     std::uint32_t begin, end;
     Box box;
   };
-  /// Patches of a part follow each other.
   std::vector<Part> parts_of(const std::vector<Box>& wide) const {
     std::vector<Part> parts;
     for (std::uint32_t p = 0; p < wide.size(); ++p) {
@@ -79,15 +63,51 @@ class SelfSearch {
     }
     return parts;
   }
-  template <class Take>
-  static void look_for_patches(const Part& a, const Part& b, const std::vector<Box>& wide, Take&& take) {
-    std::vector<std::uint32_t> of_b;
-    for (std::uint32_t q = b.begin; q < b.end; ++q)
-      if (wide[q].meets(a.box)) of_b.push_back(q);
-    for (std::uint32_t p = a.begin; p < a.end; ++p) {
-      if (!wide[p].meets(b.box)) continue;
-      for (const std::uint32_t q : of_b) take(p, q);
+  using Indices = std::pair<std::uint32_t, std::uint32_t>;
+  static std::vector<Indices> meeting_parts(const std::vector<Part>& parts) {
+    std::vector<Box> boxes;
+    for (const Part& part : parts) boxes.push_back(part.box);
+    const collision::BoxTree tree(boxes);
+    std::vector<Indices> pairs;
+    tree.pairs(tree, [&](std::size_t a, std::size_t b) {
+      if (a < b) pairs.emplace_back(a, b);
+    });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+  /// Patches of two parts, where both are.
+  void look_between(const Part& a, const Part& b) {
+    const Box both{a.box.low.cwiseMax(b.box.low), a.box.high.cwiseMin(b.box.high)};
+    wide_.meeting(both, a.begin, a.end, of_first_);
+    if (of_first_.empty()) return;
+    wide_.meeting(both, b.begin, b.end, of_second_);
+    some_.take(wide_, of_second_);
+    // What parts two patches parts their neighbours as well, nearly always.
+    Direction across{};
+    for (const std::uint32_t p : of_first_) {
+      some_.meeting(wide_, p, near_);
+      for (const std::uint32_t k : near_) look(p, of_second_[k], across);
     }
+  }
+  void look_within_parts(const std::vector<Box>& wide) {
+    std::vector<Indices> near;
+    const collision::BoxTree tree(wide);
+    tree.pairs(tree, [&](std::size_t a, std::size_t b) {
+      const auto p = static_cast<std::uint32_t>(a), q = static_cast<std::uint32_t>(b);
+      if (p <= q && mesh_.patches[p].part == mesh_.patches[q].part && !keeps_apart(p, q))
+        near.emplace_back(p, q);
+    });
+    std::sort(near.begin(), near.end());
+    Direction across{};
+    for (const auto& [p, q] : near) look(p, q, across);
+  }
+  void look(std::uint32_t p, std::uint32_t q, Direction& across) {
+    const Box &a = points_.box(p), &b = points_.box(q);
+    const double far = this->far(p, q);
+    const Vec3 gap = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0);
+    if (gap.squaredNorm() > far * far * (1.0 + 1e-9)) return;
+    const double apart = p == q ? 0.0 : distance(p, q, far, across);
+    if (!(apart > far)) list_.groups.push_back({p, q, apart - model_.meets()});
   }
   static Box box_of(std::span<const std::uint32_t> vertices, std::span<const Vec3> at) {
     Box box{at[vertices[0]], at[vertices[0]]};
@@ -149,59 +169,39 @@ class SelfSearch {
     return sum / static_cast<double>(patch.corners.size());
   }
 
-  /// Patches that have a place in common have no distance by their corners.
-  void look(std::uint32_t p, std::uint32_t q) {
-    const Vec3 gap = (boxes_[p].low - boxes_[q].high).cwiseMax(boxes_[q].low - boxes_[p].high).cwiseMax(0.0);
-    if (gap.norm() > far(p, q) * (1.0 + 1e-9)) return;
-    const double apart = p == q ? 0.0 : distance(mesh_.patches[p], mesh_.patches[q], far(p, q));
-    if (!(apart > far(p, q))) list_.groups.push_back({p, q, apart - model_.meets()});
-  }
-
-  /// How far the second lies behind the first along n, and the corners that say so.
-  struct Along {
-    double apart;
-    Vec3 from, to;
-  };
-  Along along(const SelfPatch& first, const SelfPatch& second, const Vec3& n) const {
-    Along result{0.0, Vec3::Zero(), Vec3::Zero()};
-    const Vec3 origin = at_[first.corners[0]];
-    double low = kInfinite, high = -kInfinite, size = 0.0;
-    for (const std::uint32_t v : first.corners) {
-      const double at = n.dot(at_[v] - origin);
-      if (at < low) low = at, result.to = at_[v];
-    }
-    for (const std::uint32_t v : second.corners) {
-      const double at = n.dot(at_[v] - origin);
-      size = std::max(size, std::abs(at));
-      if (at > high) high = at, result.from = at_[v];
-    }
-    result.apart = low - high - 1e-14 * (size + std::abs(low));
-    return result;
-  }
-  Vec3 normal(const SelfPatch& patch) const {
-    const auto& [a, b, c] = model_.surface.triangles[patch.faces[patch.faces.size() / 2]];
+  Vec3 normal(std::uint32_t patch) const {
+    const auto& [a, b, c] = mesh_.amidst[patch];
     return (at_[b] - at_[a]).cross(at_[c] - at_[a]).stableNormalized();
   }
 
   /// A lower bound on the distance of two patches: by how much a plane across some direction parts them.
-  /// Tried are their normals, as boxes about what is flat and aslant hold much besides; then the direction
+  /// Patches that have a place in common have none by their corners. Tried are a direction that is given,
+  /// and their normals, as boxes about what is flat and aslant hold much besides; then the direction
   /// from the point of the hull of all differences that is known to be nearest to 0, which moves towards
   /// each round's support point [Gilbert 1966].
   /// \param enough  more need not be known
-  double distance(const SelfPatch& first, const SelfPatch& second, double enough) const {
+  /// \param across  0, or one to try first; that of the best
+  double distance(std::uint32_t p, std::uint32_t q, double enough, Direction& across) const {
+    if (across != Direction{} && points_.apart(p, q, across) > enough) return kInfinite;
     double best = 0.0;
-    Vec3 between = middle(first, at_) - middle(second, at_);
-    for (const SelfPatch* patch : {&first, &second}) {
-      const Vec3 n = normal(*patch);
-      best = std::max(best, along(first, second, n.dot(between) < 0.0 ? Vec3(-n) : n).apart);
+    Vec3 between = points_.middle(p) - points_.middle(q);
+    const auto look = [&](const Vec3& n) {
+      const Direction direction{static_cast<float>(n.x()), static_cast<float>(n.y()),
+                                static_cast<float>(n.z())};
+      const PatchPoints::Along here = points_.along(p, q, direction);
+      if (here.apart > best) best = here.apart, across = direction;
+      return Vec3(at_[here.of_p] - at_[here.of_q]);
+    };
+    for (const std::uint32_t patch : {p, q}) {
+      const Vec3 n = normal(patch);
+      look(n.dot(between) < 0.0 ? Vec3(-n) : n);
       if (best > enough) return best;
     }
+    between = look(between.stableNormalized());
     for (int round = 0; round < kRounds && best <= enough; ++round) {
       const double length = between.norm();
       if (!(length > best * kCloseEnough)) break;
-      const Along here = along(first, second, between / length);
-      best = std::max(best, here.apart);
-      const Vec3 way = here.to - here.from - between;
+      const Vec3 way = look(between / length) - between;
       const double square = way.squaredNorm();
       if (!(square > 0.0)) break;
       between += std::clamp(-between.dot(way) / square, 0.0, 1.0) * way;
@@ -226,9 +226,11 @@ class SelfSearch {
   const SelfMesh& mesh_;
   std::span<const Vec3> at_;
   SelfList& list_;
-  std::vector<Box> boxes_;
-  std::vector<Resting> rest_;
+  PatchPoints points_;
   std::vector<double> margin_;  ///< per patch
+  std::vector<Resting> rest_;
+  FloatBoxes wide_, some_;
+  std::vector<std::uint32_t> of_first_, of_second_, near_;
 };
 
 }  // namespace
