@@ -49,8 +49,8 @@ TEST_P(FreeFall, OfABallThatSpins) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, FreeFall,
                          testing::Values(Method::cash_karp, Method::rodas, Method::automatic, Method::verlet,
-                                         Method::runge_kutta4, Method::explicit_euler,
-                                         Method::backward_euler),
+                                         Method::runge_kutta4, Method::explicit_euler, Method::backward_euler,
+                                         Method::nystrom),
                          [](const auto& method) { return to_string(method.param); });
 
 /// A torque about a fixed axis, without an energy.

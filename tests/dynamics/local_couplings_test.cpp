@@ -137,10 +137,10 @@ TEST(LocalCouplings, LeaveTheAutomaticChoiceWithExplicitSteps) {
   Simulation simulation(system, system.rest_state(), {.tolerance = 1e-3});
   const Report report = simulation.run(0.01);
   EXPECT_EQ(report.stop, Stop::finished) << report.reason;
-  EXPECT_EQ(report.method, "Cash-Karp 4(5)");
-  ASSERT_EQ(report.switches.size(), 3u);
-  EXPECT_NE(report.switches[2].reason.find("couple more nodes"), std::string::npos)
-      << report.switches[2].reason;
+  EXPECT_EQ(report.method, "Nystrom 5(3)");
+  ASSERT_GE(report.switches.size(), 3u);
+  EXPECT_NE(report.switches.back().reason.find("couple more nodes"), std::string::npos)
+      << report.switches.back().reason;
 }
 
 TEST(CheckForce, FindsWhatALocalCouplingLeavesOut) {

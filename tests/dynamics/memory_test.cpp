@@ -114,7 +114,7 @@ TEST_P(Remembering, CountsAsWorkWhatItTakes) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Remembering,
                          testing::Values(Method::cash_karp, Method::rodas, Method::automatic, Method::verlet,
-                                         Method::runge_kutta4),
+                                         Method::runge_kutta4, Method::nystrom),
                          [](const auto& at) { return std::string(to_string(at.param)); });
 
 TEST(Memory, IsEachRunsOwn) {

@@ -125,11 +125,42 @@ TEST_P(EveryMethod, SaysWhatItChoosesAndWhetherItIsStiff) {
   EXPECT_EQ(chooses_steps(row.method), row.chooses != Chooses::nothing);
   if (embedded == nullptr) return;
   EXPECT_EQ(embedded->stiff(), row.stiff);
-  EXPECT_EQ(embedded->error_order(), row.order - 1);
+  EXPECT_EQ(embedded->error_order(), row.method == Method::nystrom ? 3 : row.order - 1);
+  if (!row.stiff) EXPECT_EQ(embedded->stages(), row.stages);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(methods().begin(), methods().end()),
                          [](const auto& row) { return std::string(row.param.name); });
+
+// What the guard of a run goes by.
+TEST(Growth, IsWhatStepsOfAMethodMultiplyAMotionBy) {
+  for (const Method method : {Method::cash_karp, Method::nystrom})
+    for (const double alpha : {0.0, 0.1, 1.0})
+      for (const double h : {0.8, 1.6, 2.5, 3.2}) {
+        // The guard of Nystrom counts with a frequency above the one it is told.
+        const double w = method == Method::nystrom ? 1.08 : 1.0;
+        const auto size_after = [&](int steps) {
+          Motion motion(2.0 * w * w, alpha);
+          motion.place() = kStart;
+          EXPECT_TRUE(motion.advance(*make_stepper(method, motion.system), h, steps));
+          return std::hypot(motion.place(), motion.speed());
+        };
+        const Motion motion(2.0, alpha);
+        const auto stepper = make_stepper(method, motion.system);
+        const double growth = dynamic_cast<const EmbeddedStepper&>(*stepper).growth(1.0, alpha, 0.0, h);
+        // A turning motion is seen from different sides.
+        EXPECT_NEAR(std::log(size_after(60) / size_after(20)) / 40, std::log1p(growth), 0.06)
+            << to_string(method) << " alpha " << alpha << " h " << h;
+      }
+}
+
+TEST(Growth, OfNystromIsNoneBelowItsLimit) {
+  const Motion motion(2.0, 0.0);
+  const auto stepper = make_stepper(Method::nystrom, motion.system);
+  const auto& nystrom = dynamic_cast<const EmbeddedStepper&>(*stepper);
+  for (double h = 0.001; h < 2.86 / 1.08; h += 0.001) EXPECT_LT(nystrom.growth(1.0, 0.0, 0.0, h), 1e-14) << h;
+  EXPECT_GT(nystrom.growth(1.0, 0.0, 0.0, 2.87 / 1.08), 0.01);
+}
 
 TEST(Methods, AreFoundByNamesOfTheirOwn) {
   std::set<std::string> names;
@@ -151,6 +182,7 @@ TEST(Methods, HaveTheNumbersOfTheEnumeration) {
   EXPECT_STREQ(to_string(Method::runge_kutta4), "runge_kutta4");
   EXPECT_STREQ(to_string(Method::explicit_euler), "explicit_euler");
   EXPECT_STREQ(to_string(Method::backward_euler), "backward_euler");
+  EXPECT_STREQ(to_string(Method::nystrom), "nystrom");
 }
 
 TEST(Methods, OfOtherNumbersAreRefused) {

@@ -66,8 +66,8 @@ TEST_P(Refusing, NoAcceptedStateIsOneThatAForceRefuses) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Refusing,
                          testing::Values(Method::cash_karp, Method::rodas, Method::automatic,
-                                         Method::runge_kutta4, Method::explicit_euler,
-                                         Method::backward_euler),
+                                         Method::runge_kutta4, Method::explicit_euler, Method::backward_euler,
+                                         Method::nystrom),
                          [](const auto& method) { return to_string(method.param); });
 
 TEST(Refusing, IsAskedOfThoseForcesAloneThatSayTheyMayRefuse) {

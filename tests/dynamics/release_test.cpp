@@ -37,7 +37,8 @@ SimulationOptions options_for(Method method) {
 }
 
 class Released : public testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Methods, Released, testing::Values(Method::cash_karp, Method::rodas),
+INSTANTIATE_TEST_SUITE_P(Methods, Released,
+                         testing::Values(Method::cash_karp, Method::rodas, Method::nystrom),
                          [](const auto& method) { return std::string(to_string(method.param)); });
 
 TEST_P(Released, RodFallsFreely) {

@@ -44,7 +44,7 @@ Rod bar(const Vec3& from, const Vec3& to, int edges, double young, double radius
 class Slides : public testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Slides,
                          testing::Values(Method::automatic, Method::cash_karp, Method::rodas, Method::verlet,
-                                         Method::runge_kutta4, Method::backward_euler),
+                                         Method::runge_kutta4, Method::backward_euler, Method::nystrom),
                          [](const auto& method) { return std::string(to_string(method.param)); });
 
 SimulationOptions options_for(Method method, double tolerance, double step) {

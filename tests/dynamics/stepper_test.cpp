@@ -115,7 +115,8 @@ TEST_P(EveryFixedStepper, HasItsOrderOnASpinningRod) {
 INSTANTIATE_TEST_SUITE_P(Orders, EveryFixedStepper,
                          testing::Values(Order{Method::explicit_euler, 1, 8000},
                                          Order{Method::backward_euler, 1, 800},
-                                         Order{Method::runge_kutta4, 4, 200}, Order{Method::verlet, 2, 400}),
+                                         Order{Method::runge_kutta4, 4, 200}, Order{Method::verlet, 2, 400},
+                                         Order{Method::nystrom, 3, 200}),
                          [](const auto& one) { return std::string(to_string(one.param.method)); });
 
 TEST(FixedSteppers, OrderByEnergyErrorWhereTheStepResolvesTheMotion) {
@@ -156,6 +157,25 @@ TEST(VelocityVerlet, ForgetsAStepThatFailed) {
   ASSERT_TRUE(stepper.advance(again, 1e-3).ok());
   ASSERT_TRUE(VelocityVerlet(*chain.system).advance(fresh, 1e-3).ok());
   EXPECT_TRUE((again.y.array() == fresh.y.array()).all());
+}
+
+TEST(Nystrom, HasOrderFiveWhereForcesDependOnPlacesAlone) {
+  const Chain chain(8);
+  const auto end = [&](Method method, int steps) {
+    State state = chain.state;
+    const auto stepper = make_stepper(method, *chain.system);
+    for (int i = 0; i < steps; ++i)
+      if (!stepper->advance(state, 0.2 / steps).ok()) throw std::runtime_error("step failed");
+    return Eigen::VectorXd(state.y.head(54));
+  };
+  const Eigen::VectorXd exact = end(Method::cash_karp, 3200);
+  double before = 0.0;
+  for (const int steps : {100, 200, 400}) {
+    const double error = (end(Method::nystrom, steps) - exact).norm();
+    std::printf("nystrom, %d steps: error %.2e, order %.2f\n", steps, error, std::log2(before / error));
+    if (before > 0.0) EXPECT_NEAR(std::log2(before / error), 5.0, 0.15);
+    before = error;
+  }
 }
 
 TEST(VelocityVerlet, IsSymplectic) {

@@ -28,7 +28,8 @@ bool below_gap(const Trial& trial, const Results& results) {
 /// The stability of its steps costs more than their accuracy.
 bool held_by_guard(const Trial& trial) {
   const double mean = trial.report.time / static_cast<double>(std::max(1L, trial.report.accepted));
-  return trial.report.method == "Cash-Karp 4(5)" && mean > 0.5 * trial.report.guard_step;
+  return (trial.report.method == "Cash-Karp 4(5)" || trial.report.method == "Nystrom 5(3)") &&
+         mean > 0.5 * trial.report.guard_step;
 }
 
 OrderedJson to_json(const Trial& trial, const Results& results) {

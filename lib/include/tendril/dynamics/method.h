@@ -12,11 +12,12 @@ namespace tendril {
 enum class Method {
   cash_karp,       ///< cash_karp.h, its steps chosen
   rodas,           ///< rodas.h, its steps chosen
-  automatic,       ///< Cash-Karp or RODAS as the scene's stiffness asks, changing in both directions
+  automatic,       ///< Cash-Karp, Nystrom or RODAS as stiffness and accuracy ask, changing to and fro
   verlet,          ///< VelocityVerlet, steps of the size given
   runge_kutta4,    ///< ClassicRungeKutta, steps of the size given
   explicit_euler,  ///< ExplicitEuler, steps of the size given
-  backward_euler   ///< BackwardEuler, steps of the size given
+  backward_euler,  ///< BackwardEuler, steps of the size given
+  nystrom          ///< nystrom.h, its steps chosen
 };
 
 /// The largest steps h at which a method amplifies no motion x'' + (alpha + beta w^2) x' + w^2 x = 0.

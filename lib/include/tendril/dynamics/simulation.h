@@ -13,9 +13,10 @@ namespace tendril {
 
 /// Moves a system by Cash-Karp 4(5) with the controller of [Chan 2008] 3.34 (safety 0.93, exponents 0.2 and
 /// 0.25, factor bounded to [0.2, 5]) under a guard: the pair amplifies undamped oscillations (|R(iy)| - 1 =
-/// y^6 / 7200), so the step is capped by an estimate of the largest frequency. Where that is dearer than
-/// implicit steps, by those (rodas.h), shortened where they would lose energy that puts the motion off. Or,
-/// when the options say so, by either alone, or by a method of fixed step under the same watch on energy and
+/// y^6 / 7200), so the step is capped by an estimate of the largest frequency. Where that shortens it, by
+/// Nystrom's (nystrom.h), of which the cap is wider; where those are dearer than implicit steps, by these
+/// (rodas.h). Either is shortened where it would lose energy that puts the motion off. Or, when the options
+/// say so, by one of them alone, or by a method of fixed step under the same watch on energy and
 /// work; velocity Verlet and Runge-Kutta 4 refuse steps beyond their stability limits. Same scene, same bits.
 class TENDRIL_CORE_API Simulation {
  public:

@@ -19,11 +19,11 @@ namespace tendril {
 /// speeds do; a run that is asked for piece by piece (Simulation::run) looks ahead no farther than each
 /// piece.
 struct SimulationOptions {
-  /// How steps are taken. The automatic choice stays with Cash-Karp where implicit steps would be refused, as
-  /// forces couple too much for their equations.
+  /// How steps are taken. The automatic choice stays with explicit steps where implicit ones would be
+  /// refused, as forces couple too much for their equations.
   Method method = Method::automatic;
   /// Makes a stepper of the caller's, instead of the method's. With a fixed step it may be any Stepper;
-  /// without it must be an EmbeddedStepper, and one that is not stiff is capped by Cash-Karp's guard.
+  /// without it must be an EmbeddedStepper, and one that is not stiff is capped by what its growth() says.
   std::function<std::unique_ptr<Stepper>(const System&)> own_stepper = {};
   /// Step of the methods that do not choose their own. Stretches between outputs, jumps of a
   /// force and the end are divided into equal steps of at most this.

@@ -37,6 +37,15 @@ class TENDRIL_CORE_API EmbeddedStepper : public Stepper {
 
   virtual int error_order() const = 0;          ///< the error goes with h to this order plus 1
   virtual bool stiff() const { return false; }  ///< damps what it does not resolve, at any step
+  /// Takes energy out of what it resolves: a run holds what each step puts the balance off by against what
+  /// may be lost.
+  virtual bool dissipates() const { return stiff(); }
+
+  /// Evaluations a step, of one that is not stiff.
+  virtual int stages() const { return 6; }
+  /// By how much more than 1 a step of one that is not stiff multiplies x'' + (alpha + beta w^2) x' + w^2 x
+  /// = 0 at most: the guard of a run caps its steps by that (stability.h). Cash-Karp's unless overridden.
+  virtual double growth(double w, double alpha, double beta, double h) const;
 };
 
 }  // namespace tendril

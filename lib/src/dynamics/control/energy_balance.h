@@ -39,6 +39,7 @@ class EnergyBalance {
   double off(const State& state, const Energies& energies) const {
     return energies.total() - first_.total() - work(state);
   }
+  double scale() const { return scale_; }          ///< the largest energy seen, where it looked
   double imbalance() const { return imbalance_; }  ///< off / the largest energy seen, where it looked
 
   /// The largest energy of motion seen: kinetic energy, what is in the springs more than at the start, and

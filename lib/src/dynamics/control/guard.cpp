@@ -24,11 +24,16 @@ double longest_turn(const System& system, const State& state) {
   return fastest > 0.0 ? 1.5 / fastest : std::numeric_limits<double>::infinity();
 }
 
-void Guard::measure(const State& state, double duration, System::Workspace& work) {
+void Guard::measure(const State& state, double duration, const Growth& growth, System::Workspace& work) {
   since_.begin_anew();
   last_ = fastest_motion(system_, state, work);
   if (frequency_ && std::abs(last_ - *frequency_) <= 0.01 * *frequency_) return;
   frequency_ = last_;
+  duration_ = duration;
+  cap(growth);
+}
+
+double Guard::step_of(const Growth& growth) const {
   double alpha = std::numeric_limits<double>::infinity();
   double beta = alpha;
   double most_beta = 0.0;
@@ -38,9 +43,11 @@ void Guard::measure(const State& state, double duration, System::Workspace& work
     beta = std::min(beta, rod.viscosity);
     most_beta = std::max(most_beta, rod.viscosity);
   }
-  const GuardLimits limits{options_.amplification, options_.total_amplification, duration};
+  const GuardLimits limits{options_.amplification, options_.total_amplification, duration_};
   // Where rods differ, the least damped decides on growth and the most viscous on the real axis.
-  step_ = std::min(guard_step(last_, alpha, beta, limits), guard_step(last_, alpha, most_beta, limits));
+  const double least = guard_step(*frequency_, alpha, beta, limits, growth);
+  return most_beta > beta ? std::min(least, guard_step(*frequency_, alpha, most_beta, limits, growth))
+                          : least;
 }
 
 }  // namespace tendril

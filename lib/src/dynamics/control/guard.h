@@ -2,6 +2,7 @@
 
 #include <tendril/dynamics/simulation.h>
 
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -29,16 +30,23 @@ double fastest_motion(const System& system, const State& state, System::Workspac
 /// infinite where none spins.
 double longest_turn(const System& system, const State& state);
 
-/// The cap on explicit steps that keeps Cash-Karp from amplifying the fastest oscillations (stability.h),
+/// The cap on explicit steps that keeps a method from amplifying the fastest oscillations (stability.h),
 /// from estimates of the largest frequency now and then.
 class Guard {
  public:
+  using Growth = std::function<double(double, double, double, double)>;
+
   /// Both are kept by reference.
   Guard(const System& system, const SimulationOptions& options) : system_(system), options_(options) {}
 
   /// Takes the frequency at a state; the cap changes when it does by more than a hundredth.
   /// \param duration  of the run
-  void measure(const State& state, double duration, System::Workspace& work);
+  /// \param growth    of the method whose steps are capped, as cash_karp_growth
+  void measure(const State& state, double duration, const Growth& growth, System::Workspace& work);
+
+  /// The cap of another method, for the frequency as it was measured.
+  void cap(const Growth& growth) { step_ = step_of(growth); }
+  double step_of(const Growth& growth) const;
 
   /// Accepted steps since it was measured.
   Interval& since() { return since_; }
@@ -52,7 +60,7 @@ class Guard {
   const SimulationOptions& options_;
   Interval since_;
   std::optional<double> frequency_;
-  double last_ = 0.0;
+  double last_ = 0.0, duration_ = 0.0;
   double step_ = std::numeric_limits<double>::infinity();
 };
 

@@ -21,7 +21,11 @@ constexpr double kDriftAim = 2.0;
 // steps.
 constexpr double kFinest = 1e-3;
 constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr long kWatch = 4;  // explicit steps from look to look at the energy, where they dissipate
+// By so much do they get longer or shorter between two.
+constexpr double kSafety = 0.9, kShrink = 0.3, kGrow = 2.0;
 constexpr long kUnwatched = 16;  // steps without regard to the energy
+constexpr double kGross = 0.25;  // of the energy limit, in a step without regard to the energy
 constexpr double kStill = 5.0;   // who moves less than that, in lengths over the tolerance, may stop as well
 constexpr double kBurst = 0.02;  // of the energy that may still be lost, in one step
 // Of the speed that the error scale knows; slower motions have no more to lose.
@@ -73,18 +77,24 @@ void ChosenSteps::take_over(const Past& past) {
 
 void ChosenSteps::measure_guard() {
   other_evaluations_ += kFrequencyCost;
-  guard_.measure(state_, until_ - start_, workspace());
+  guard_.measure(state_, until_ - start_, growth(), workspace());
   report_.largest_frequency = guard_.last_frequency();
   report_.guard_step = guard_.step();
 }
 
+Guard::Growth ChosenSteps::growth() const {
+  return
+      [this](double w, double alpha, double beta, double h) { return stepper_->growth(w, alpha, beta, h); };
+}
+
 void ChosenSteps::begin_anew() {
   restart_stepper();
+  forget_watch();
   guard_.since().end_at_once();
 }
 
 double ChosenSteps::needed() const {
-  return 6.0 * (until_ - state_.time) / guard_.step();
+  return explicit_stages() * (until_ - state_.time) / guard_.step();
 }
 
 void ChosenSteps::look_ahead() {
@@ -124,7 +134,7 @@ void ChosenSteps::foresee() {
 /// An implicit step's equations weigh the springs by (h omega)^2 against the masses: their rounding turns and
 /// shakes a body that nothing holds in place.
 double ChosenSteps::longest_step() const {
-  if (!stepper_->stiff()) return std::min(guard_.step(), kSeen * period_);
+  if (!stepper_->stiff()) return std::min({guard_.step(), kSeen * period_, keeping_step_});
   const double w = guard_.frequency().value_or(0.0);
   return std::min(kSeen * period_,
                   floats_ && w > 0.0 ? kLongestPhase / w : std::numeric_limits<double>::infinity());
@@ -181,7 +191,7 @@ double ChosenSteps::energy_allowance(double h) const {
   const double may_lose = 4.0 * kDriftAim * options_.tolerance / std::max(1.0, speed * run) *
                           std::max(energy_.own_scale(), kSlowest * kSlowest * scale_.energy()) *
                           scale_.share_of_flight();
-  const double lost = std::abs(energy_.off(state_, energy_.last()));
+  const double lost = std::abs(watched_ ? watched_->off : energy_.off(state_, energy_.last()));
   const double left = std::max(may_lose - lost, kBurst * may_lose);
   return left * std::max(2.0 * h / (until_ - state_.time), kBurst);
 }
@@ -197,21 +207,58 @@ double ChosenSteps::error_with_energy(const Aim& aim, double error) {
   next_.rotation = state_.rotation;
   next_.time = aim.time;
   next_energies_.reset();
-  if (!stepper_->stiff()) return error;
+  if (!stepper_->stiff()) {
+    watch(aim.h);
+    return error;
+  }
   ++other_evaluations_;
   next_energies_ = system_.energies(next_, workspace());
   const bool flies = scale_.share_of_flight() < 1.0;
-  if (unwatched_ > 0 || (steps_ > kLongRun && drift_.widest() < kStill * options_.tolerance && !flies))
-    return error;
+  const bool still = steps_ > kLongRun && drift_.widest() < kStill * options_.tolerance && !flies;
+  if (unwatched_ > 0 || still) return std::max(error, gross_error());
   return std::max(error, energy_error(aim, error));
 }
 
+/// Explicit steps that dissipate are too cheap to ask for the energy at each: what the balance is off by
+/// since it was looked at last says how long the next may be, as a loss a time unit goes with h^5.
+void ChosenSteps::watch(double h) {
+  if (!stepper_->dissipates() || (watched_ && ++watched_->steps < kWatch)) return;
+  ++other_evaluations_;
+  const Energies energies = system_.energies(next_, workspace());
+  const double off = energy_.off(next_, energies);
+  if (watched_) {
+    const double ratio = lost_share(energies, off - watched_->off, next_.time - watched_->time);
+    keeping_step_ = ratio > 0.0 ? h * std::clamp(kSafety * std::pow(ratio, -0.2), kShrink, kGrow) : kGrow * h;
+  }
+  watched_ = Watched{next_.time, off, 0};
+}
+
+/// Of what may be lost in some time.
+double ChosenSteps::lost_share(const Energies& at, double off, double time) const {
+  const double rounding = 1e-14 * (at.kinetic + at.elastic + std::abs(at.potential));
+  return std::max(0.0, std::abs(off) - rounding) / energy_allowance(time);
+}
+
+/// After steps of another kind it has to be asked for.
+double ChosenSteps::off_here() {
+  if (!watched_ || watched_->time != state_.time) {
+    ++other_evaluations_;
+    watched_ = Watched{state_.time, energy_.off(state_, system_.energies(state_, workspace())), 0};
+  }
+  return watched_->off;
+}
+
+/// Of a step that is not shortened for the energy's sake: one that ends deep in what none of its stages felt
+/// may not use up what the balance may be off by.
+double ChosenSteps::gross_error() {
+  const double off = std::abs(energy_.off(next_, *next_energies_) - off_here());
+  const double most = kGross * std::max(options_.energy_limit, options_.tolerance) * energy_.scale();
+  return off > most && most > 0.0 ? off / most : 0.0;
+}
+
 double ChosenSteps::energy_error(const Aim& aim, double error) {
-  const double rounding =
-      1e-14 * (next_energies_->kinetic + next_energies_->elastic + std::abs(next_energies_->potential));
-  const double off = energy_.off(next_, *next_energies_) - energy_.off(state_, energy_.last());
-  const double ratio =
-      std::min(std::max(0.0, std::abs(off) - rounding) / energy_allowance(aim.h), error / kFinest);
+  const double off = energy_.off(next_, *next_energies_) - off_here();
+  const double ratio = std::min(lost_share(*next_energies_, off, aim.h), error / kFinest);
   if (ratio > 1.0) tolerable_ = std::max(aim.h, tolerable_.value_or(0.0));
   return ratio;
 }
@@ -278,7 +325,10 @@ void ChosenSteps::accept(const Aim& aim, double error) {
   control_.accept(aim.h, error, *stepper_);
   if (unwatched_ > 0) --unwatched_;
   guard_.since().count();
-  if (next_energies_) judge(*next_energies_);
+  if (next_energies_) {
+    judge(*next_energies_);
+    watched_ = Watched{state_.time, energy_.off(state_, *next_energies_), 0};
+  }
   record(aim);
   // What was learnt before a jump says nothing about what comes after it.
   if (aim.at_break) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "controller.h"
 #include "dynamics/control/guard.h"
 #include "dynamics/control/step_control.h"
@@ -28,7 +30,13 @@ class ChosenSteps : public Controller {
   virtual bool turns_from_implicit(const Evaluation&) { return false; }
   void restart_stepper() override { stepper_->restart(); }
   void begin_anew() override;
+  /// Another stepper, or another state.
+  void forget_watch() { watched_.reset(), keeping_step_ = std::numeric_limits<double>::infinity(); }
+  double keeping_step() const { return keeping_step_; }
   void measure_guard();
+  /// Of the explicit steps that the guard is for, and their evaluations.
+  virtual Guard::Growth growth() const;
+  virtual double explicit_stages() const { return stepper_->stages(); }
   /// Stops where explicit steps cannot reach the end.
   void refuse_where_too_dear();
   /// Evaluations that explicit steps would need from here on, and those that are left.
@@ -53,11 +61,21 @@ class ChosenSteps : public Controller {
   double error_with_energy(const Aim& aim, double error);
   double energy_allowance(double h) const;
   double energy_error(const Aim& aim, double error);
+  void watch(double h);
+  double off_here();
+  double gross_error();
+  double lost_share(const Energies& at, double off, double time) const;
   void accept(const Aim& aim, double error);
   bool reject(const Aim& aim, std::optional<double> error, const Evaluation& why);
   void stop_without_step(const Evaluation& why);
   double least_step() const;
   std::optional<std::size_t> least_certain() const;
+
+  /// Where the energy balance was off by how much, and steps since.
+  struct Watched {
+    double time, off;
+    long steps;
+  };
 
   /// What accepted steps cost since a time.
   struct Pace {
@@ -65,6 +83,8 @@ class ChosenSteps : public Controller {
     long evaluations;
   };
 
+  std::optional<Watched> watched_;
+  double keeping_step_ = std::numeric_limits<double>::infinity();  ///< that keeps the energy, explicit
   State next_;
   std::optional<Energies> next_energies_;
   double own_error_ = 0.0;           ///< of the last trial, without regard to the energy
