@@ -153,8 +153,8 @@ bool Automatic::struggles(double ratio) {
   const long accepted = report_.accepted - std::exchange(accepted_, report_.accepted);
   if (wait_ > 0) --wait_;
   const bool often = static_cast<double>(in_vain) > kInVain * static_cast<double>(accepted);
-  return wait_ == 0 && (often || decays_ || (wide_ && ratio > cost() / kMargin)) &&
-         control_.step() > kNearCap * guard_.step();
+  const bool trouble = wide_ ? ratio > cost() / kMargin : often;
+  return wait_ == 0 && (trouble || decays_) && control_.step() > kNearCap * guard_.step();
 }
 
 void Automatic::look_ahead() {
