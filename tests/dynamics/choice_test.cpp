@@ -79,17 +79,33 @@ TEST(AutomaticChoice, TurnsToNystromWhereTheGuardShortensCashKarpsSteps) {
   }
 }
 
-// They damp what they do not resolve.
-TEST(AutomaticChoice, ComesBackToCashKarpWhereNystromsStepsLoseEnergy) {
-  Scene scene = swinging(32, 1e5).scene();
-  scene.rods[0].mass_damping = 0.0;
+/// A rod that goes on ringing in all its modes.
+Report ring(Method method, double until) {
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(4, 1e4, 5e-3));
+  scene.anchors.push_back({.rod = 0, .node = 0});
   const System system(scene);
-  const Report report = run(system, Method::automatic, 4.0);
+  State start = system.rest_state();
+  for (int i = 1; i < 5; ++i) start.y[3 * i] *= i % 2 == 0 ? 1.02 : 0.98;
+  Simulation simulation(system, start, {.method = method, .tolerance = 1e-3});
+  return simulation.run(until);
+}
+
+TEST(NystromSteps, AreShortenedWhereTheyWouldLoseEnergy) {
+  const Report report = ring(Method::nystrom, 30.0);
   ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  std::printf("drift %.1e, imbalance %.1e, %ld steps\n", report.drift, report.imbalance, report.accepted);
+  EXPECT_LT(report.drift, 10e-3);
+}
+
+TEST(AutomaticChoice, ComesBackToCashKarpWhereNystromsStepsLoseEnergy) {
+  const Report report = ring(Method::automatic, 30.0);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  std::printf("drift %.1e, imbalance %.1e, %ld steps\n", report.drift, report.imbalance, report.accepted);
   EXPECT_EQ(report.method, "Cash-Karp 4(5)");
   EXPECT_TRUE(std::any_of(report.switches.begin(), report.switches.end(),
                           [](const Switch& entry) { return entry.reason == "steps lose energy"; }));
-  EXPECT_LT(report.drift, 10e-3);
+  EXPECT_LT(report.drift, 50e-3);
 }
 
 TEST(AutomaticChoice, TakesImplicitStepsAtOnceWhereViscosityIsStrong) {

@@ -30,6 +30,10 @@ constexpr long kImplicitInterval = 16;
 constexpr long kLongestInterval = 256;
 // Of explicit steps between two looks, those in vain that tell of trouble at the cap; and a step near it.
 constexpr double kInVain = 0.05, kNearCap = 0.25;
+// Nystrom's wish for steps this much shorter than would pay is reason enough, where that many are left; and
+// steps of a trial.
+constexpr double kTrialMargin = 4.0, kWorthTrial = 400.0;
+constexpr long kTrial = 4;
 constexpr long kLongestWait = 64;  // looks between two trials
 // Of Nystrom's, in Cash-Karp's; and tolerances that their loss of energy may put a run off by at its end.
 constexpr double kWideCost = 0.85, kWideDrift = 2.0;
@@ -153,14 +157,16 @@ bool Automatic::struggles(double ratio) {
   const long accepted = report_.accepted - std::exchange(accepted_, report_.accepted);
   if (wait_ > 0) --wait_;
   const bool often = static_cast<double>(in_vain) > kInVain * static_cast<double>(accepted);
-  const bool trouble = wide_ ? ratio > cost() / kMargin : often;
+  const bool worth_it = needed() > kWorthTrial * explicit_stages();
+  const bool trouble = wide_ ? ratio > cost() / kTrialMargin && worth_it : often;
   return wait_ == 0 && (trouble || decays_) && control_.step() > kNearCap * guard_.step();
 }
 
 void Automatic::look_ahead() {
   const bool stiff = stepper_->stiff();
   if (stiff) foresee();
-  const bool due = guard_.since().passed(stiff ? implicit_interval_ : kGuardInterval);
+  const bool due = guard_.since().passed(
+      stiff ? (trial_ ? std::min(kTrial, implicit_interval_) : implicit_interval_) : kGuardInterval);
   const bool drifting = wide_ && !stiff && drifts();
   if (!due && !drifting && !(doubtful_ && guard_.since().passed(kDoubt))) return;
   if (due) measure_guard();

@@ -168,20 +168,25 @@ class TilesInPlace {
 
 struct CashKarp::Implementation {
   const System& system;
-  System::WorkspacePtr work = system.make_workspace();
+  System::WorkspacePtr work = {};  ///< of the first step on: a run that begins with another has no use for it
   Stages whole = {}, tile = {};
   TilesInPlace in_place = {};
   Eigen::VectorXd next = {};  ///< of a step that is taken as it is
+
+  System::Workspace& space() {
+    if (!work) work = system.make_workspace();
+    return *work;
+  }
 
   Evaluation step(const State& state, double h, Eigen::VectorXd& y, Eigen::VectorXd* error) {
     const Model& model = model_of(system);
     y.resize(model.size());
     if (error) error->resize(model.size());
-    if (model.tiles && step_tiles(model, state, h, *work, tile, y, error)) {
+    if (model.tiles && step_tiles(model, state, h, space(), tile, y, error)) {
       whole.evaluations += static_cast<long>(whole.k.size());
       return {};
     }
-    return step_whole(model, state, h, *work, whole, y, error);
+    return step_whole(model, state, h, space(), whole, y, error);
   }
 };
 
@@ -197,13 +202,13 @@ Evaluation CashKarp::advance(State& state, double h) {
   if (model.tiles) {
     self_->whole.evaluations += static_cast<long>(self_->whole.k.size());
     restart();
-    return self_->in_place.advance(model, state, h, *self_->work);
+    return self_->in_place.advance(model, state, h, self_->space());
   }
   if (const Evaluation at = self_->step(state, h, self_->next, nullptr); !at.ok()) return at;
   state.y.swap(self_->next);
   state.time += h;
   restart();
-  return self_->system.rebase(state, *self_->work);
+  return self_->system.rebase(state, self_->space());
 }
 
 void CashKarp::restart() {
@@ -215,7 +220,7 @@ long CashKarp::evaluations() const {
 }
 
 System::Workspace& CashKarp::workspace() {
-  return *self_->work;
+  return self_->space();
 }
 
 }  // namespace tendril
