@@ -37,7 +37,7 @@ PatchPoints::PatchPoints(const SelfMesh& mesh, std::span<const Vec3> at)
 
 double PatchPoints::between(std::size_t p, std::size_t q, const Direction& n) const {
   const Vec3 way = at_[mesh_.padded[mesh_.padded_begin[p]]] - at_[mesh_.padded[mesh_.padded_begin[q]]];
-  return way.dot(Vec3(n[0], n[1], n[2]));
+  return way.dot(Eigen::Vector3f(n[0], n[1], n[2]).cast<double>());
 }
 
 double PatchPoints::surely(std::size_t p, std::size_t q, double apart) const {
