@@ -108,6 +108,21 @@ TEST(AutomaticChoice, ComesBackToCashKarpWhereNystromsStepsLoseEnergy) {
   EXPECT_LT(report.drift, 50e-3);
 }
 
+// At the cap what is fast is seen by the error estimate: what implicit steps could do is found out by trying,
+// ever more seldom.
+TEST(AutomaticChoice, TriesImplicitStepsWhereNystromsStayAtTheCap) {
+  Scene scene = swinging(9, 1e7).scene();
+  scene.twist = Scene::Twist::everywhere;
+  const System system(scene);
+  const Report report = run(system, Method::automatic, 3.0);
+  ASSERT_EQ(report.stop, Stop::finished) << report.reason;
+  const auto trials = std::count_if(report.switches.begin(), report.switches.end(), [](const Switch& entry) {
+    return entry.reason == "explicit steps stay at the guard's cap, or are tried in vain there";
+  });
+  EXPECT_GE(trials, 1);
+  EXPECT_LE(trials, 5);
+}
+
 TEST(AutomaticChoice, TakesImplicitStepsAtOnceWhereViscosityIsStrong) {
   Scene scene = swinging(32, 1e7).scene();
   scene.rods[0].viscosity = 10.0;
