@@ -118,7 +118,9 @@ bool Automatic::widens(double wish) {
 bool Automatic::narrows(double wish) {
   if (!wide_) return false;
   const double narrow = guard_.step_of(cash_karp_growth);
-  if (!drifts() && 1.5 * wish > narrow) return false;
+  // By what a time unit costs.
+  const double dearer = info(Method::cash_karp).stages / explicit_stages();
+  if (!drifts() && dearer * wish > narrow) return false;
   may_widen_ = false;
   narrow_down();
   return true;

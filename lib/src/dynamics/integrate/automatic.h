@@ -18,7 +18,7 @@ class Automatic : public ChosenSteps {
   void look_ahead() override;
   bool turns_from_implicit(const Evaluation& why) override;
   Guard::Growth growth() const override;
-  double explicit_stages() const override { return wide_ ? 4.0 : 6.0; }
+  double explicit_stages() const override { return info(wide_ ? Method::nystrom : Method::cash_karp).stages; }
 
  private:
   bool explicit_fits() const { return needed() < left(); }
@@ -36,12 +36,12 @@ class Automatic : public ChosenSteps {
   double margin(bool first) const;
   double implicit_step();
 
-  std::vector<std::unique_ptr<EmbeddedStepper>> idle_;
-  double cost_;                       ///< of an implicit step, in Cash-Karp's
-  bool wide_ = false;                 ///< explicit steps are Nystrom's
-  bool may_widen_ = true;             ///< may become so
-  bool chosen_ = false;               ///< a first choice was made
-  bool doubtful_ = false;             ///< and that by the first step alone
+  std::vector<std::unique_ptr<EmbeddedStepper>> idle_;  ///< used before: to come back to
+  double cost_;                                         ///< of an implicit step, in Cash-Karp's
+  bool wide_ = false;                                   ///< explicit steps are Nystrom's
+  bool may_widen_ = true;                               ///< may become so
+  bool chosen_ = false;                                 ///< a first choice was made
+  bool doubtful_ = false;                               ///< and that by the first step alone
   std::string bound_;                 ///< why it cannot turn to implicit steps; empty where it can
   long implicit_interval_;            ///< accepted implicit steps between looks at the choice
   bool decays_ = false;               ///< some spring resists

@@ -13,7 +13,9 @@ using T = NystromTableau;
 constexpr std::size_t kStages = T::c.size();
 
 /// Numbers of y whose rates stand `count` behind them, and of which the derivative is that and more: angles
-/// of twist, whose frames turn with edges, and places and turns of bodies.
+/// of twist, whose frames turn with edges, and places and turns of bodies. Taken as first-order numbers alone
+/// they would ring with a lower order than the masses do; so the rates go in as accelerations' sums, and the
+/// rest, which is small, by the weights of rates.
 struct Turned {
   Eigen::Index begin, count;
 };
@@ -47,11 +49,13 @@ void begin_turned(const Model& model, const Eigen::VectorXd& y, double time, Eig
 struct Nystrom::Implementation {
   const System& system;
   System::WorkspacePtr work = system.make_workspace();
-  std::array<Eigen::VectorXd, kStages> k = {};  ///< of turned() what their rates leave of the derivative
+  /// Derivatives at the stages, of turned() without the rates that stand in y.
+  std::array<Eigen::VectorXd, kStages> k = {};
   Eigen::VectorXd argument = {}, next = {}, next_error = {};
   bool first_known = false;  ///< k[0] is that of the present state
   long evaluations = 0;
 
+  /// Into one of k.
   Evaluation differentiate(const State& from, double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy) {
     const Model& model = model_of(system);
     ++evaluations;
@@ -67,6 +71,7 @@ struct Nystrom::Implementation {
       if (const Evaluation at = differentiate(from, from.time, from.y, k[0]); !at.ok()) return at;
     first_known = true;
     argument.resize(model.size());
+    // No force depends on the work done: stages need not know it.
     argument[model.work_index()] = from.y[model.work_index()];
     for (std::size_t s = 1; s < kStages; ++s) {
       SecondOrder sum{h * T::c[s], s, {}, {}, {}};
@@ -98,6 +103,7 @@ struct Nystrom::Implementation {
     y.resize(model.size());
     error.resize(model.size());
     bool finite = second_order_both(from.y, k[0], sum, off, model.v_begin(), y, error);
+    // Few numbers, or none: they are not worth a vector loop.
     const Eigen::Index rest = model.theta_begin(), w = model.work_index();
     begin_turned(model, from.y, h, y);
     error.tail(error.size() - rest).setZero();
