@@ -1,5 +1,6 @@
 #include "float_boxes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

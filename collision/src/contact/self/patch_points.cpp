@@ -1,7 +1,7 @@
 #include "patch_points.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace tendril::contact {
 namespace {

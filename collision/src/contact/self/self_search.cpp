@@ -229,7 +229,9 @@ class SelfSearch {
   PatchPoints points_;
   std::vector<double> margin_;  ///< per patch
   std::vector<Resting> rest_;
-  FloatBoxes wide_, some_;
+  FloatBoxes wide_;  ///< of all patches, with their margins
+  // Of the pair of parts that is looked at: patches where both are, and boxes of the second's.
+  FloatBoxes some_;
   std::vector<std::uint32_t> of_first_, of_second_, near_;
 };
 

@@ -164,6 +164,16 @@ bool Automatic::struggles(double ratio) {
   return wait_ == 0 && (trouble || decays_) && control_.step() > kNearCap * guard_.step();
 }
 
+/// What is asked for and what is allowed.
+/// \param narrow  what Cash-Karp may take, where Nystrom takes its place
+std::string Automatic::in_words(double wish, std::optional<double> narrow) const {
+  const std::string asks =
+      sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ");
+  return (narrow ? sentence(asks, *narrow, " to Cash-Karp and ", guard_.step(), " to Nystrom")
+                 : sentence(asks, guard_.step())) +
+         bound_;
+}
+
 void Automatic::look_ahead() {
   const bool stiff = stepper_->stiff();
   if (stiff) foresee();
@@ -186,12 +196,7 @@ void Automatic::look_ahead() {
   if (cheap_enough && wide_ && wish <= guard_.step_of(cash_karp_growth)) narrow_down();
   const bool to_implicit = (too_dear && bound_.empty()) || tries;
   const bool to_explicit = cheap_enough || (turned && !stiff && !to_implicit);
-  const std::string asks =
-      sentence("accuracy asks for steps of ", wish, ", the guard of explicit steps allows ");
-  const std::string why =
-      (widened && !to_implicit ? sentence(asks, narrow, " to Cash-Karp and ", guard_.step(), " to Nystrom")
-                               : sentence(asks, guard_.step())) +
-      bound_;
+  const std::string why = in_words(wish, widened && !to_implicit ? std::optional(narrow) : std::nullopt);
   const bool loses = drifting || (to_explicit && !wide_ && !stiff && keeping_step() < wish);
   if (first) tell(to_implicit || to_explicit ? "runs begin with explicit steps" : why);
   if (to_implicit)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ class Automatic : public ChosenSteps {
   void turn_to();
   void turn_to_explicit();
   void tell(std::string reason);
+  std::string in_words(double wish, std::optional<double> narrow) const;
   bool widens(double wish);
   bool narrows(double wish);
   void narrow_down();
