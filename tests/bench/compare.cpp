@@ -29,7 +29,7 @@ const std::set<std::string> kTimes{
     "ns_per_node", "ns_per_node_step", "seconds", "ns",       "ns_in_points_order",
     "update_ns",   "transpose_ns",     "us",      "us_alone", "ms"};
 const std::set<std::string> kControls{"plain_chain_ns", "bytes_ns", "stream_ns", "de_boor_ns", "skinning_ns"};
-const std::set<std::string> kOwnSolvers{"Cash-Karp", "RODAS", "automatic"};
+const std::set<std::string> kOwnSolvers{"Cash-Karp", "RODAS", "automatic", "Nystrom"};
 
 /// A row's times by its name, one a run.
 struct Row {

@@ -136,6 +136,34 @@ TEST(Tiles, StepALongChainWithoutTwistAsAWhole) {
   expect_same(twins, twins.step_size());
 }
 
+/// Ranges of one shape, whose masses, springs and rest lengths are not the same.
+TEST(Tiles, StepAFreeUnevenRodAsAWhole) {
+  Random random(8);
+  Scene scene;
+  scene.rods.push_back(test::uneven_rod(random, 7000));
+  scene.rods[0].mass_damping = 0.3;
+  Twins twins(scene);
+  twins.push(random, 0.1, 50.0);
+  expect_same(twins, twins.step_size());
+}
+
+TEST(Tiles, StepAFreeUnevenChainWithoutTwistAsAWhole) {
+  Random random(9);
+  Scene scene;
+  scene.rods.push_back(test::straight_rod(7000, 1e6, 2e-4));
+  Rod& rod = scene.rods[0];
+  rod.mass_damping = 0.1;
+  for (std::size_t i = 0; i < rod.p.size(); ++i) {
+    rod.mass[i] *= random.uniform(1.0, 2.0);
+    rod.bend_l[i] = rod.bend_m[i] = rod.bend_l[i] * random.uniform(0.5, 1.0);
+  }
+  for (double& stretch : rod.stretch) stretch *= random.uniform(0.5, 1.0);
+  Twins twins(scene);
+  ASSERT_EQ(twins.tiled.system.twist_count(), 0u);
+  twins.push(random, 1e-4, 1e-2);
+  expect_same(twins, twins.step_size());
+}
+
 Scene chain_with_twist(int edges) {
   Scene scene;
   scene.rods.push_back(test::straight_rod(edges, 1e6, 2e-4));

@@ -117,6 +117,8 @@ struct System::Model {
     bool third;     ///< has springs on the angle to the tangent
     bool straight;  ///< at rest
     bool viscous;   ///< some spring resists
+
+    bool operator==(const Segment&) const = default;
   };
   std::vector<Segment> segments;
 

@@ -86,11 +86,12 @@ bool step_tiles(const Model& model, const State& from, double h, System::Workspa
   for (const Tiles::Tile& tile : model.tiles->all()) {
     const State& part = scratch.take(tile, from);
     stages.first_known = false;
-    if (!differentiate(*tile.part, part, h, scratch.workspace(tile), stages).ok()) return false;
+    const Model& of_tile = scratch.model(tile);
+    if (!differentiate(of_tile, part, h, scratch.workspace(tile), stages).ok()) return false;
     const Sums sums(stages, h);
     for (const NumbersAt& own : tile.own)
       if (!sums.put(part.y, own, y, error)) return false;
-    sums.add(tile.part->work_index(), model.work_index(), y, error);
+    sums.add(of_tile.work_index(), model.work_index(), y, error);
   }
   return std::isfinite(y[model.work_index()]);
 }
@@ -128,35 +129,35 @@ class TilesInPlace {
   /// Into next_.
   Evaluation step(const Tiles::Tile& tile, TileScratch& scratch, const State& state, double h, double& done) {
     const State& part = scratch.take(tile, state);
+    const Model& model = scratch.model(tile);
+    const Eigen::Index work = model.work_index();
     stages_.first_known = false;
-    if (const Evaluation at = differentiate(*tile.part, part, h, scratch.workspace(tile), stages_); !at.ok())
+    if (const Evaluation at = differentiate(model, part, h, scratch.workspace(tile), stages_); !at.ok())
       return at;
     next_.resize(part.y.size());
-    next_[tile.part->work_index()] = 0.0;
+    next_[work] = 0.0;
     const Sums sums(stages_, h);
     for (const NumbersAt& own : tile.own)
       if (!sums.put(part.y, {own.from, own.from, own.count}, next_, nullptr))
         return {Evaluation::Outcome::not_finite, 0};
-    sums.add(tile.part->work_index(), tile.part->work_index(), next_, nullptr);
-    done += next_[tile.part->work_index()];
+    sums.add(work, work, next_, nullptr);
+    done += next_[work];
     return {};
   }
 
   /// Of the tile in now_, with the one in next_ behind it.
   Evaluation finish(const Model& model, const Tiles::Tile& tile, TileScratch& scratch, State& state, double h,
                     std::size_t& rod) {
-    for (const NumbersAt& before : tile.before)
-      now_.segment(before.to, before.count) = state.y.segment(before.from, before.count);
-    for (const NumbersAt& after : tile.after)
-      now_.segment(after.to, after.count) = next_.segment(after.from, after.count);
+    for (const NumbersAt& before : tile.before) copy(state.y, before, now_);
+    for (const NumbersAt& after : tile.after) copy(next_, after, now_);
     Kinematics& kin = scratch.workspace(tile).kinematics;
     const State& reference = scratch.take_reference(tile, state);
-    if (const Evaluation at = kinematics(*tile.part, reference, state.time + h, now_, Motion::positions, kin);
+    const Model& part = scratch.model(tile);  // with the next one's constants, which do not matter here
+    if (const Evaluation at = kinematics(part, reference, state.time + h, now_, Motion::positions, kin);
         !at.ok())
       return at;
-    for (const NumbersAt& own : tile.own)
-      state.y.segment(own.to, own.count) = now_.segment(own.from, own.count);
-    rebase_seen(model, {*tile.part, kin, tile.begin, tile.first, tile.end}, rod, state);
+    for (const NumbersAt& own : tile.own) copy(now_, own, state.y);
+    rebase_seen(model, {part, kin, tile.begin, tile.first, tile.end}, rod, state);
     return {};
   }
 

@@ -129,7 +129,43 @@ void end_where_cut(const Cut& cut) {
   }
 }
 
+/// Gives `act` the columns of a part that tell one place of a scene from another: masses, springs, rest
+/// lengths. Without twist most are zeros.
+template <class Part>
+void each_constant(Part& part, const auto& act) {
+  const auto vectors = [&](auto&... columns) { (act(columns.data()), ...); };
+  auto& bending = part.bending;
+  vectors(part.stretch, part.rest_length, bending.hinge, part.inverse_mass, part.damping, part.damped_mass);
+  if (part.twist_nodes == 0) return;
+  vectors(part.twist, part.rest_twist, part.inverse_inertia, part.free_inertia, part.damped_inertia);
+  vectors(bending.k_l, bending.k_m, bending.k_t, bending.rest_l, bending.rest_m, bending.rest_t);
+}
+
 }  // namespace
+
+std::vector<double> constants_of(const Model& part) {
+  std::vector<double> constants;
+  each_constant(part,
+                [&](const double* from) { constants.insert(constants.end(), from, from + part.nodes); });
+  return constants;
+}
+
+void put_constants(const std::vector<double>& constants, Model& part) {
+  const double* from = constants.data();
+  each_constant(part, [&](double* to) {
+    std::copy_n(from, part.nodes, to);
+    from += part.nodes;
+  });
+}
+
+bool has_anchors(const Model& part) {
+  return !part.anchors.empty() || !part.held_positions.empty();
+}
+
+bool alike_but_for_constants(const Model& a, const Model& b) {
+  return a.begins == b.begins && a.ends == b.ends && a.twist_index == b.twist_index &&
+         a.segments == b.segments;
+}
 
 std::vector<AnchoredNode> anchored_nodes(const Model& model) {
   std::vector<AnchoredNode> nodes;
@@ -140,9 +176,9 @@ std::vector<AnchoredNode> anchored_nodes(const Model& model) {
   return nodes;
 }
 
-std::shared_ptr<const Model> part_of(const Model& whole, const std::vector<AnchoredNode>& anchored,
-                                     std::size_t first, std::size_t end, std::size_t own_first,
-                                     std::size_t own_end) {
+std::shared_ptr<Model> part_of(const Model& whole, const std::vector<AnchoredNode>& anchored,
+                               std::size_t first, std::size_t end, std::size_t own_first,
+                               std::size_t own_end) {
   const auto result = std::make_shared<Model>();
   Model& part = *result;
   part.nodes = end - first;

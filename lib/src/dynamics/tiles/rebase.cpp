@@ -102,10 +102,11 @@ bool rebase_tiles(const Model& model, State& state, System::Workspace& work) {
   TileScratch& scratch = TileScratch::of(model, work);
   std::size_t rod = 0;
   for (const Tiles::Tile& tile : model.tiles->all()) {
-    const State& part = scratch.take(tile, state);
+    const Model& part = scratch.model(tile);
+    const State& there = scratch.take(tile, state);
     Kinematics& kin = scratch.workspace(tile).kinematics;
-    if (!kinematics(*tile.part, part, part.time, part.y, Motion::positions, kin).ok()) return false;
-    rebase_seen(model, {*tile.part, kin, tile.begin, tile.first, tile.end}, rod, state);
+    if (!kinematics(part, there, there.time, there.y, Motion::positions, kin).ok()) return false;
+    rebase_seen(model, {part, kin, tile.begin, tile.first, tile.end}, rod, state);
   }
   return true;
 }

@@ -10,7 +10,7 @@ namespace {
 // Nodes of a tile: some 1.5 kB each go through a step.
 constexpr std::size_t kOwn = 1024;
 // Scenes of fewer nodes have no tiles: the cache holds them.
-constexpr std::size_t kWorthIt = 4 * kOwn;
+constexpr std::size_t kWorthIt = 2 * kOwn;
 // The force on a node depends on the three before it and behind (its edges' twist turns the frames at their
 // other ends, which halve the angles to the edges beyond), by places and velocities, and a step has six
 // stages. Without twist it depends on two, by places alone: these are moved by velocities of a stage before.
@@ -71,9 +71,9 @@ std::vector<NumbersAt> turned_round(std::vector<NumbersAt> numbers) {
 }
 
 template <class T>
-void take_part(const std::vector<T>& from, const Tiles::Tile& tile, std::vector<T>& to) {
-  const auto at = from.begin() + static_cast<std::ptrdiff_t>(tile.begin);
-  to.assign(at, at + static_cast<std::ptrdiff_t>(tile.part->nodes));
+void take_part(const std::vector<T>& from, std::size_t begin, std::size_t nodes, std::vector<T>& to) {
+  const auto at = from.begin() + static_cast<std::ptrdiff_t>(begin);
+  to.assign(at, at + static_cast<std::ptrdiff_t>(nodes));
 }
 
 }  // namespace
@@ -88,7 +88,8 @@ Tiles::Tiles(const Model& model) {
     tiles_.push_back({first,
                       end,
                       begin,
-                      part,
+                      add(part),
+                      has_anchors(*part) ? std::vector<double>{} : constants_of(*part),
                       numbers_of(model, *part, begin, begin, begin + part->nodes),
                       turned_round(numbers_of(model, *part, begin, first, end)),
                       numbers_of(model, *part, begin, begin, first),
@@ -100,15 +101,25 @@ Tiles::Tiles(const Model& model) {
   number_workspaces();
 }
 
+std::size_t Tiles::add(const std::shared_ptr<const Model>& part) {
+  const auto alike = [&](const std::shared_ptr<const Model>& other) {
+    return !has_anchors(*other) && alike_but_for_constants(*part, *other);
+  };
+  const auto place = has_anchors(*part) ? parts_.end() : std::find_if(parts_.begin(), parts_.end(), alike);
+  const auto at = static_cast<std::size_t>(place - parts_.begin());
+  if (at == parts_.size()) parts_.push_back(part);
+  return at;
+}
+
 /// A tile feels no farther than the next one's own nodes.
 void Tiles::join(const Model& model) {
   for (std::size_t k = 0; k + 1 < tiles_.size(); ++k) {
     Tile& tile = tiles_[k];
     const Tile& next = tiles_[k + 1];
-    const std::size_t end = tile.begin + tile.part->nodes;
+    const std::size_t end = tile.begin + shape_of(tile).nodes;
     assert(end <= next.end);
-    const std::vector<NumbersAt> here = numbers_of(model, *tile.part, tile.begin, tile.end, end);
-    const std::vector<NumbersAt> there = numbers_of(model, *next.part, next.begin, tile.end, end);
+    const std::vector<NumbersAt> here = numbers_of(model, shape_of(tile), tile.begin, tile.end, end);
+    const std::vector<NumbersAt> there = numbers_of(model, shape_of(next), next.begin, tile.end, end);
     for (std::size_t i = 0; i < here.size(); ++i)
       tile.after.push_back({there[i].to, here[i].to, here[i].count});
   }
@@ -122,10 +133,10 @@ void Tiles::number_workspaces() {
   };
   std::size_t count = 0;
   for (std::size_t k = 0; k < tiles_.size(); ++k) {
-    const Model& part = *tiles_[k].part;
+    const Model& part = shape_of(tiles_[k]);
     const auto alike = [&](const Tile& other) {
-      return uniform(*other.part) && other.part->nodes == part.nodes &&
-             other.part->twist_nodes == part.twist_nodes;
+      const Model& that = shape_of(other);
+      return uniform(that) && that.nodes == part.nodes && that.twist_nodes == part.twist_nodes;
     };
     const auto here = tiles_.begin() + static_cast<std::ptrdiff_t>(k);
     const auto before = uniform(part) ? std::find_if(tiles_.begin(), here, alike) : here;
@@ -138,12 +149,14 @@ std::shared_ptr<const Tiles> tiles_for(const Model& model) {
   return std::make_shared<const Tiles>(model);
 }
 
-TileScratch::TileScratch(const Tiles& tiles) {
+TileScratch::TileScratch(const Tiles& tiles) : parts_(tiles.parts()), shared_(parts_.size()) {
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (!has_anchors(*parts_[k])) parts_[k] = shared_[k] = std::make_shared<Model>(*parts_[k]);
   for (const Tiles::Tile& tile : tiles.all()) {
     if (tile.workspace == workspaces_.size())
-      workspaces_.push_back(std::make_unique<System::Workspace>(*tile.part));
+      workspaces_.push_back(std::make_unique<System::Workspace>(model(tile)));
     std::vector<AnchorPose>& pose = workspace(tile).kinematics.pose;
-    pose.resize(std::max(pose.size(), tile.part->anchors.size()));
+    pose.resize(std::max(pose.size(), model(tile).anchors.size()));
   }
 }
 
@@ -153,21 +166,21 @@ TileScratch& TileScratch::of(const Model& whole, System::Workspace& work) {
 }
 
 const State& TileScratch::take(const Tiles::Tile& tile, const State& from) {
-  const Model& part = *tile.part;
+  if (const std::shared_ptr<Model>& shared = shared_[tile.part]) put_constants(tile.constants, *shared);
+  const Model& part = model(tile);
   state_.time = from.time;
   state_.y.resize(part.size());
-  for (const NumbersAt& all : tile.all)
-    state_.y.segment(all.to, all.count) = from.y.segment(all.from, all.count);
+  for (const NumbersAt& all : tile.all) copy(from.y, all, state_.y);
   state_.y[part.work_index()] = 0.0;
   return take_reference(tile, from);
 }
 
 const State& TileScratch::take_reference(const Tiles::Tile& tile, const State& from) {
-  const Model& part = *tile.part;
+  const Model& part = model(tile);
   if (part.twist_nodes == 0 && part.anchors.empty()) return state_;
-  take_part(from.tangent, tile, state_.tangent);
-  take_part(from.director, tile, state_.director);
-  take_part(from.twist, tile, state_.twist);
+  take_part(from.tangent, tile.begin, part.nodes, state_.tangent);
+  take_part(from.director, tile.begin, part.nodes, state_.director);
+  take_part(from.twist, tile.begin, part.nodes, state_.twist);
   return state_;
 }
 

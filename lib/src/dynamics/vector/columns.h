@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tendril {
@@ -20,9 +21,21 @@ class Column {
  public:
   Column() = default;
   Column(std::size_t size, std::size_t rank) : values_(size + kFront + kBack + kPage, 0.0) {
-    const std::size_t place = reinterpret_cast<std::uintptr_t>(values_.data()) / sizeof(double) + kFront;
-    first_ = kFront + (kApart * rank - place) % kPage;
+    begin_at(kApart * rank);
   }
+  /// Begins at the same place of its page.
+  Column(const Column& other) : values_(other.values_.size(), 0.0) {
+    if (values_.empty()) return;
+    begin_at(number_of(other.data()));
+    std::copy_n(other.data(), values_.size() - kFront - kBack - kPage, data());
+  }
+  Column(Column&&) = default;
+  Column& operator=(Column other) {
+    values_.swap(other.values_);
+    std::swap(first_, other.first_);
+    return *this;
+  }
+  ~Column() = default;
 
   double& operator[](std::size_t i) { return values_[i + first_]; }
   double operator[](std::size_t i) const { return values_[i + first_]; }
@@ -33,6 +46,13 @@ class Column {
  private:
   // In numbers; a line is 8, a page 512.
   static constexpr std::size_t kFront = 8, kBack = 8, kPage = 512, kApart = 5 * 8;
+
+  static std::size_t number_of(const double* at) {
+    return reinterpret_cast<std::uintptr_t>(at) / sizeof(double);
+  }
+  /// At a place of a page.
+  void begin_at(std::size_t place) { first_ = kFront + (place - number_of(values_.data()) - kFront) % kPage; }
+
   std::vector<double> values_;
   std::size_t first_ = kFront;
 };

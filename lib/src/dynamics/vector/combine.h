@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace tendril {
@@ -20,6 +21,11 @@ void combine(const Eigen::VectorXd* from, const Term* terms, std::size_t count, 
 struct NumbersAt {
   Eigen::Index from, to, count;
 };
+
+/// From one vector into another. Much faster than an expression of segments, which is not vector code.
+inline void copy(const Eigen::VectorXd& from, const NumbersAt& numbers, Eigen::VectorXd& to) {
+  std::copy_n(from.data() + numbers.from, numbers.count, to.data() + numbers.to);
+}
 
 /// A part of two sums of the same vectors in one pass, `from` added to the first: a step and its error,
 /// which may be null where nobody asks. Five vectors at most. False when a number is not finite.
