@@ -45,8 +45,9 @@ TEST(SelfLedger, IsTheSameWithALedgerAndWithout) {
 }
 
 /// Nor over many small steps, with what a ledger has taken over from the one before: a leaf comes down on
-/// another, slides over it and goes up again, as a whole or bending, and is looked at between steps too.
-TEST(SelfLedger, IsTheSameAfterManyStepsFromLedgerToLedger) {
+/// another, slides over it and goes up again, as a whole or bending, and is looked at between steps too. Where
+/// time goes on, it is expected to go on as it does, and does not: it turns about its axis to and fro besides.
+void is_the_same_after_many_steps(double time_step) {
   Random random(12);
   const double skin = 0.002, range = 0.004;  // so that lists and what is near are soon used up
   const Sheets sheets = test::crossed(0.02);
@@ -64,6 +65,9 @@ TEST(SelfLedger, IsTheSameAfterManyStepsFromLedgerToLedger) {
         for (std::size_t i = 9; i < 18; ++i)
           s.p[i] += (round % 2 == 0 ? 0.5 : 0.0625 * static_cast<double>(i - 9)) * way;
         for (Vec3& p : s.p) p += random.in_cube(2e-6);
+        s.time += 0.5 * time_step;
+        const double angle = time_step > 0.0 ? 0.02 * std::sin(0.02 * step * (1 + round)) : 0.0;
+        for (std::size_t i = 9; i < 18; ++i) s.m[i] = rotate_about(Vec3::UnitX(), angle, Vec3::UnitZ());
         SCOPED_TRACE("round " + std::to_string(round) + " step " + std::to_string(step));
         const test::Felt felt = test::same_without_memory(contact, s);
         ASSERT_NE(felt, test::Felt::refusal);
@@ -77,6 +81,12 @@ TEST(SelfLedger, IsTheSameAfterManyStepsFromLedgerToLedger) {
   EXPECT_GT(asleep, 200);
   EXPECT_LT(4 * searches, touched + asleep);
   std::cout << touched << " touched, " << asleep << " not, searches " << searches << "\n";
+}
+TEST(SelfLedger, IsTheSameAfterManyStepsFromLedgerToLedger) {
+  is_the_same_after_many_steps(0.0);
+}
+TEST(SelfLedger, IsTheSameWhereItExpectsALeafToGoOn) {
+  is_the_same_after_many_steps(0.01);
 }
 
 }  // namespace

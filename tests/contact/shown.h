@@ -14,8 +14,9 @@ struct Shown {
   std::vector<NodeRange> rods;
   std::shared_ptr<const ForceMemory> memory;
   std::vector<BodyView> bodies;
+  double time = 0.25;
 
-  StateView view() const { return {0.25, p, v, t, spin, mass, width, rods, m, memory.get(), bodies, turn}; }
+  StateView view() const { return {time, p, v, t, spin, mass, width, rods, m, memory.get(), bodies, turn}; }
 };
 
 inline Shown shown(Random& random, const std::vector<Vec3>& at, double speed) {

@@ -55,14 +55,15 @@ struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 /// come to, is refused. Linear momentum is kept, angular momentum but for friction, which acts on either
 /// side where it is, not where the skins meet.
 ///
-/// Vertices are deformed only where something is near: patches of some 16 triangles that could meet are
-/// sought now and then, and looked at where bounds on the motion of parts of spans of curve-pairs (by
-/// masses nearby, then by curves, each part seen from a frame that goes with it) let them have come within
-/// the range.
+/// Vertices are deformed only where something is near. Now and then patches of some 16 triangles that could
+/// meet are sought, for some steps: each vertex is taken to go on straight as it did in the last, and a plane
+/// that parts two patches at the beginning and the end of that way parts them all the way. They are looked at
+/// where bounds on how far what parts of spans of curve-pairs hold is from its way (by masses nearby, then by
+/// curves, with what frames turn) let them have come within the range.
 ///
-/// Cost: of an evaluation some 0.2 us a curve-pair, some 4 us for each that may have come near another, and
-/// what is near; of a search, every dozen steps or so, each where steps are long against the triangles, an
-/// update of the mesh and some 0.1 us a triangle.
+/// Cost: of an evaluation some 0.2 us a curve-pair, some us for each that may have come near another, and what
+/// is near; of a search, every two to sixty steps by how evenly things move, two updates of the mesh and some
+/// 0.1 us a triangle.
 /// Implicit steps and equilibria take differences, by all nodes of the rods that hold what is in the range,
 /// of what is there alone.
 class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {

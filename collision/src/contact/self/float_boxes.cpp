@@ -13,23 +13,57 @@ float below(double x) {
   return near - std::abs(near) * std::numeric_limits<float>::epsilon() - std::numeric_limits<float>::min();
 }
 
-}  // namespace
+constexpr std::size_t kSides = 6;
+constexpr std::uint32_t kBlock = 64;
 
-FloatBoxes::One FloatBoxes::rounded(const collision::Box& box) {
-  return {below(box.low.x()),   below(box.low.y()),   below(box.low.z()),
-          below(-box.high.x()), below(-box.high.y()), below(-box.high.z())};
-}
+/// A side of boxes, at the beginning and the end, and what a box may not be above that meets them there.
+struct Side {
+  const float* __restrict first;
+  const float* __restrict last;
+  float most_first, most_last;
 
-void FloatBoxes::take(const std::vector<collision::Box>& boxes) {
-  for (std::vector<float>& side : side_) side.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const One one = rounded(boxes[i]);
-    for (std::size_t k = 0; k < 6; ++k) side_[k][i] = one[k];
+  template <bool Moving>
+  int meets(std::uint32_t i) const {
+    const int here = static_cast<int>(first[i] <= most_first);
+    return Moving ? here | static_cast<int>(last[i] <= most_last) : here;
+  }
+};
+using Sides = std::array<Side, kSides>;
+
+template <bool Moving>
+void find(const Sides& sides, std::uint32_t from, std::uint32_t count,
+          std::array<std::int32_t, kBlock>& meets) {
+  const auto [x, y, z, u, v, w] = sides;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t i = from + k;
+    meets[k] = x.meets<Moving>(i) & y.meets<Moving>(i) & z.meets<Moving>(i) & u.meets<Moving>(i) &
+               v.meets<Moving>(i) & w.meets<Moving>(i);
   }
 }
 
+}  // namespace
+
+void FloatBoxes::round(const collision::Box& box, std::size_t end, One& one) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    one[end * kSides + axis] = below(box.low[static_cast<Eigen::Index>(axis)]);
+    one[end * kSides + 3 + axis] = below(-box.high[static_cast<Eigen::Index>(axis)]);
+  }
+}
+
+void FloatBoxes::take(const std::vector<std::vector<collision::Box>>& boxes) {
+  ends_ = boxes.size();
+  for (std::size_t k = 0; k < ends_ * kSides; ++k) side_[k].resize(boxes[0].size());
+  for (std::size_t end = 0; end < ends_; ++end)
+    for (std::size_t i = 0; i < boxes[end].size(); ++i) {
+      One one;
+      round(boxes[end][i], 0, one);
+      for (std::size_t k = 0; k < kSides; ++k) side_[end * kSides + k][i] = one[k];
+    }
+}
+
 void FloatBoxes::take(const FloatBoxes& from, const std::vector<std::uint32_t>& which) {
-  for (std::size_t k = 0; k < 6; ++k) {
+  ends_ = from.ends_;
+  for (std::size_t k = 0; k < ends_ * kSides; ++k) {
     side_[k].resize(which.size());
     for (std::size_t i = 0; i < which.size(); ++i) side_[k][i] = from.side_[k][which[i]];
   }
@@ -38,20 +72,21 @@ void FloatBoxes::take(const FloatBoxes& from, const std::vector<std::uint32_t>& 
 /// Two boxes meet where no least coordinate of one is above the largest of the other.
 void FloatBoxes::meeting(const One& box, std::uint32_t begin, std::uint32_t end,
                          std::vector<std::uint32_t>& which) const {
-  constexpr std::uint32_t kBlock = 64;
+  Sides sides;
+  const std::size_t last = (ends_ - 1) * kSides;
+  for (std::size_t k = 0; k < kSides; ++k) {
+    const std::size_t other = k < 3 ? k + 3 : k - 3;
+    sides[k] = {side_[k].data(), side_[last + k].data(), -box[other], -box[last + other]};
+  }
   which.resize(end - begin);
   std::size_t found = 0;
-  const float a = -box[3], b = -box[4], c = -box[5], d = -box[0], e = -box[1], f = -box[2];
-  const float *x = side_[0].data(), *y = side_[1].data(), *z = side_[2].data(), *u = side_[3].data(),
-              *v = side_[4].data(), *w = side_[5].data();
   for (std::uint32_t from = begin; from < end; from += kBlock) {
     const std::uint32_t count = std::min(kBlock, end - from);
     std::array<std::int32_t, kBlock> meets;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t i = from + k;
-      meets[k] = static_cast<int>(x[i] <= a) & static_cast<int>(y[i] <= b) & static_cast<int>(z[i] <= c) &
-                 static_cast<int>(u[i] <= d) & static_cast<int>(v[i] <= e) & static_cast<int>(w[i] <= f);
-    }
+    if (ends_ == 1)
+      find<false>(sides, from, count, meets);
+    else
+      find<true>(sides, from, count, meets);
     for (std::uint32_t k = 0; k < count; ++k) {
       which[found] = from + k;
       found += static_cast<std::size_t>(meets[k]);
@@ -60,15 +95,17 @@ void FloatBoxes::meeting(const One& box, std::uint32_t begin, std::uint32_t end,
   which.resize(found);
 }
 
-void FloatBoxes::meeting(const collision::Box& box, std::uint32_t begin, std::uint32_t end,
+void FloatBoxes::meeting(const std::vector<collision::Box>& box, std::uint32_t begin, std::uint32_t end,
                          std::vector<std::uint32_t>& which) const {
-  meeting(rounded(box), begin, end, which);
+  One one{};
+  for (std::size_t k = 0; k < ends_; ++k) round(box[k], k, one);
+  meeting(one, begin, end, which);
 }
 
 void FloatBoxes::meeting(const FloatBoxes& others, std::uint32_t index,
                          std::vector<std::uint32_t>& which) const {
-  One one;
-  for (std::size_t k = 0; k < 6; ++k) one[k] = others.side_[k][index];
+  One one{};
+  for (std::size_t k = 0; k < ends_ * kSides; ++k) one[k] = others.side_[k][index];
   meeting(one, 0, static_cast<std::uint32_t>(side_[0].size()), which);
 }
 

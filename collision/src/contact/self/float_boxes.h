@@ -9,26 +9,30 @@
 namespace tendril::contact {
 
 /// Boxes in single precision, rounded outwards, one coordinate after the other, so that a loop over them is
-/// vector code.
+/// vector code. They stay, or go straight from one place to another, and then meet where on each side they do
+/// at the beginning or the end.
 class FloatBoxes {
  public:
-  void take(const std::vector<collision::Box>& boxes);
+  /// \param boxes  where they stay; or at the beginning and the end
+  void take(const std::vector<std::vector<collision::Box>>& boxes);
   /// Some of others.
   void take(const FloatBoxes& from, const std::vector<std::uint32_t>& which);
 
   /// Of the boxes [begin, end), those that meet one.
-  void meeting(const collision::Box& box, std::uint32_t begin, std::uint32_t end,
+  /// \param box  at as many ends
+  void meeting(const std::vector<collision::Box>& box, std::uint32_t begin, std::uint32_t end,
                std::vector<std::uint32_t>& which) const;
   /// Those that meet the box of others with that index.
   void meeting(const FloatBoxes& others, std::uint32_t index, std::vector<std::uint32_t>& which) const;
 
  private:
-  using One = std::array<float, 6>;  ///< least coordinates, then the negative of the largest
-  static One rounded(const collision::Box& box);
+  using One = std::array<float, 12>;  ///< least coordinates, the negative of the largest; then at the end
+  static void round(const collision::Box& box, std::size_t end, One& one);
   void meeting(const One& box, std::uint32_t begin, std::uint32_t end,
                std::vector<std::uint32_t>& which) const;
 
-  std::array<std::vector<float>, 6> side_;
+  std::size_t ends_ = 1;
+  std::array<std::vector<float>, 12> side_;
 };
 
 }  // namespace tendril::contact

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/by_key.h"
+
 namespace tendril::contact {
 namespace {
 
@@ -22,10 +24,12 @@ PosedSelf::PosedSelf(const SelfModel& model, const StateView& state, const SelfL
   bounded_.resize(arms_.size(), By::rod);
   for (std::size_t rod = 0; rod < arms_.size(); ++rod) sound_ = take_arms(rod) && sound_;
   if (!sound_) return;
-  if (kept_)
+  if (kept_ && kept_->list->holds_at(state.time)) {
+    share_ = kept_->list->share(state.time);
     look();
-  else
+  } else {
     search();
+  }
   if (sound_) place();
 }
 
@@ -61,19 +65,21 @@ std::span<const double> PosedSelf::motions(std::size_t rod, By by) {
   if (motions_.empty()) motions_.resize(model_.mesh.spans.size(), 0.0);
   if (bounded_[rod] >= by) return motions_;
   bounded_[rod] = by;
+  const RodWay& way = kept_->list->ways[rod];
   if (by == By::masses)
-    model_.local_motions(rod, *kept_->base[rod], masses(rod), arms_[rod], motions_);
+    model_.local_motions(rod, way, share_, masses(rod), arms_[rod], motions_);
   else
-    model_.motions(rod, *kept_->base[rod], curve(rod), motions_);
+    model_.motions(rod, way, share_, curve(rod), motions_);
   return motions_;
 }
 
 bool PosedSelf::stays(std::size_t rod) {
-  coarse_.push_back(model_.coarse_motion(rod, *kept_->base[rod], masses(rod), arms_[rod]));
-  if (coarse_.back() <= kept_->rod_room[rod]) return true;
+  const SelfList& list = *kept_->list;
+  coarse_.push_back(model_.coarse_motion(rod, list.ways[rod], share_, masses(rod), arms_[rod]));
+  if (coarse_.back() <= list.rod_room[rod]) return true;
   const std::span<const double> motions = this->motions(rod, By::masses);
   return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(),
-                     [&](std::uint32_t span) { return motions[span] <= kept_->room[span]; });
+                     [&](std::uint32_t span) { return motions[span] <= list.room[span]; });
 }
 
 /// Masses first: in most evaluations most rods moved too little for anything to be near, and making their
@@ -88,57 +94,59 @@ void PosedSelf::look() {
     for (const std::uint32_t span : model_.spans_of[rod]) sound_ = sound_ && motions[span] < kInfinite;
     if (!sound_ || !within_margins(rod)) return search();
   }
+  awake_ = kept_->awake;
   if (!moving.empty()) wake(moving);
 }
 
 bool PosedSelf::within_margins(std::size_t rod) const {
-  return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(), [&](std::uint32_t span) {
-    return kept_->since[span] + motions_[span] <= kept_->list->margin[span];
-  });
+  return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(),
+                     [&](std::uint32_t span) { return motions_[span] <= kept_->list->margin[span]; });
 }
 
-/// What no moving rod has a part in has no more than both rooms. By masses first, then by curves.
+/// What no moving rod has a part in has no more than both rooms. By masses first, then by curves. What was
+/// awake at the ledger's state stays so: it may have been near on the way from there.
 void PosedSelf::wake(const std::vector<std::uint32_t>& moving) {
   for (std::size_t rod = 0; rod < bounded_.size(); ++rod)
     if (bounded_[rod] == By::rod)
       for (const std::uint32_t span : model_.spans_of[rod]) motions_[span] = coarse_[rod];
   const auto asleep = [&](std::uint32_t group) {
     const SelfGroup& of = kept_->list->groups[group];
-    return kept_->slack(group) > model_.of_patch(of.p, motions_) + model_.of_patch(of.q, motions_);
+    return of.slack_at(share_) > model_.of_patch(of.p, motions_) + model_.of_patch(of.q, motions_);
   };
   for (const std::uint32_t rod : moving)
     for (const std::uint32_t group : kept_->list->with(rod))
-      if (!asleep(group)) awake_.push_back(group);
-  if (awake_.empty()) return;
+      if (!asleep(group)) woken_.push_back(group);
+  if (woken_.empty()) return;
+  sort_once(woken_);
+  for (const std::uint32_t rod : rods_of(woken_)) motions(rod, By::curves);
+  woken_.erase(std::remove_if(woken_.begin(), woken_.end(), asleep), woken_.end());
+  awake_.insert(awake_.end(), woken_.begin(), woken_.end());
   sort_once(awake_);
-  for (const std::uint32_t rod : rods_of_awake()) motions(rod, By::curves);
-  awake_.erase(std::remove_if(awake_.begin(), awake_.end(), asleep), awake_.end());
 }
 
 /// For this state alone, and wide enough for what has moved since the ledger was kept: what has passed by on
 /// the way is as much a meeting as what is near now.
 void PosedSelf::search() {
-  std::vector<double> moved(model_.mesh.spans.size(), 0.0), then = moved;
+  auto list = std::make_shared<SelfList>();
+  list->margin.assign(model_.mesh.spans.size(), 0.0);
+  for (std::size_t rod = 0; rod < arms_.size(); ++rod) curve(rod);
   for (std::size_t rod = 0; rod < arms_.size() && kept_ && model_.barrier(); ++rod) {
-    model_.motions(rod, *kept_->base[rod], kept_curve(rod), then);
-    const std::span<const double> now = motions(rod, By::curves);
-    for (const std::uint32_t span : model_.spans_of[rod]) {
-      moved[span] = then[span] + now[span];
-      sound_ = sound_ && moved[span] < kInfinite;
-    }
+    const RodWay way = model_.stay(rod, kept_curve(rod), kept_->p[rod], kept_->arm[rod]);
+    model_.motions(rod, way, 0.0, curve(rod), list->margin);
+    for (const std::uint32_t span : model_.spans_of[rod]) sound_ = sound_ && list->margin[span] < kInfinite;
   }
   if (!sound_) return;
-  for (std::size_t rod = 0; rod < arms_.size(); ++rod) curve(rod);
   const std::vector<Vec3> at = model_.place(pairs());
   sound_ = all_finite(at);
   if (!sound_) return;
-  own_ = model_.search(at, std::move(moved));
+  model_.search(at, at, *list);
+  own_ = std::move(list);
   for (std::uint32_t g = 0; g < own_->groups.size(); ++g) awake_.push_back(g);
 }
 
-std::vector<std::uint32_t> PosedSelf::rods_of_awake() const {
+std::vector<std::uint32_t> PosedSelf::rods_of(const std::vector<std::uint32_t>& groups) const {
   std::vector<std::uint32_t> rods;
-  for (const std::uint32_t g : awake_)
+  for (const std::uint32_t g : groups)
     for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
       rods.insert(rods.end(), model_.rods_of[patch].begin(), model_.rods_of[patch].end());
   sort_once(rods);
@@ -148,7 +156,7 @@ std::vector<std::uint32_t> PosedSelf::rods_of_awake() const {
 /// All vertices in one call, of the rods concerned alone.
 void PosedSelf::place() {
   if (awake_.empty()) return;
-  concerned_ = rods_of_awake();
+  concerned_ = rods_of(awake_);
   std::vector<char> seen(model_.surface.rest.size(), 0);
   for (const std::uint32_t g : awake_)
     for (const std::uint32_t patch : {list().groups[g].p, list().groups[g].q})
@@ -177,11 +185,8 @@ double PosedSelf::moved(const SelfGroup& group) {
   return (of_patch(group.p) + of_patch(group.q)) * (1.0 + 1e-9);
 }
 
-const NearGroup* PosedSelf::known(std::uint32_t group) {
-  if (own_ || !kept_) return nullptr;
-  const auto found = std::lower_bound(kept_->near.begin(), kept_->near.end(), group,
-                                      [](const NearGroup& near, std::uint32_t g) { return near.group < g; });
-  return found != kept_->near.end() && found->group == group ? &*found : nullptr;
+const NearGroup* PosedSelf::known(const SelfGroup& group) const {
+  return kept_ ? find_key(kept_->near, group.key()) : nullptr;
 }
 
 /// From the ledger where it has them all.

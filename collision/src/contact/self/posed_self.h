@@ -15,7 +15,7 @@ struct SelfMeeting {
 
 /// What of two patches is near each other, and how near at the last accepted state.
 struct NearGroup {
-  std::uint32_t group;  ///< of the list's
+  std::uint64_t key;  ///< of the group
   std::shared_ptr<const SelfPairs> pairs;
   std::vector<double> faces,
       edges;    ///< slacks of the pairs: distance less that where response begins, or less
@@ -23,29 +23,16 @@ struct NearGroup {
 };
 
 /// What is remembered besides what is told.
-///
-/// A vertex moves straight between accepted states, and so is never farther from where it was at a third one
-/// than at either end: bounds on how far what a rod holds is from where it was at `base` say what may have
-/// happened on the way, whenever base was. Bases move on as rods do; what they moved by adds up in `path`.
 struct SelfLedger final : SurfaceSelfMemory {
+  double time = 0.0;
   std::vector<std::vector<Vec3>> p, arm;  ///< per rod: masses, and orientation masses less them
-  RodPoses base, searched;                ///< searched: where rods were when the list was made
   std::shared_ptr<const SelfList> list;
-  std::vector<double> since;  ///< per span: how far its base is from where the list was made, at most
-  std::vector<double> path;   ///< per patch: how far its bases moved, added up
-  std::shared_ptr<const std::vector<double>> budget;  ///< per group: slack and both paths when last measured
-  std::vector<double> room;      ///< per span: within which of its base nothing comes near and the list holds
-  std::vector<double> rod_room;  ///< per rod: the least of its spans
-  long steps = 0;                ///< since the list was made
-  std::vector<NearGroup> near;   ///< what was looked at last, by ascending group
+  std::vector<std::uint32_t> awake;   ///< groups in which something could be within the range, ascending
+  double steps = 0.0;                 ///< since the list was made
+  std::vector<NearGroup> near;        ///< what was looked at last, by ascending key
   std::vector<SelfMeeting> meetings;  ///< by ascending key
   std::vector<std::uint32_t> known;   ///< vertices that were placed, ascending
   std::vector<Vec3> at;               ///< where they are
-
-  double slack(std::uint32_t group) const {
-    const SelfGroup& of = list->groups[group];
-    return (*budget)[group] - path[of.p] - path[of.q];
-  }
 };
 
 inline const SelfLedger* self_ledger_of(const ForceMemory* memory) {
@@ -69,12 +56,12 @@ class PosedSelf {
   /// The list that was made here, for this state alone; null where that of the ledger holds.
   const SelfList* own_list() const { return own_.get(); }
   const SelfList& list() const { return own_ ? *own_ : *kept_->list; }
-  /// Groups of the list in which something could have come within the range, ascending.
+  /// Groups of the list in which something could have come within the range, ascending; and those in which it
+  /// could be now.
   std::span<const std::uint32_t> awake() const { return awake_; }
-  /// What the ledger knows of an awake group; null where it does not, or too little.
-  const NearGroup* known(std::uint32_t group);
-  /// Rods with a part in an awake group, ascending.
-  std::vector<std::uint32_t> rods_of_awake() const;
+  const std::vector<std::uint32_t>& woken() const { return woken_; }
+  /// What the ledger knows of a group; null where it does not.
+  const NearGroup* known(const SelfGroup& group) const;
   /// How far the vertices of a group moved at most since the ledger was kept, both patches' together.
   double moved(const SelfGroup& group);
 
@@ -84,7 +71,7 @@ class PosedSelf {
   /// How a rod is bounded.
   enum class By : char { rod, masses, curves };
   By bounded(std::size_t rod) const { return bounded_[rod]; }
-  /// How far what it holds is from the ledger's base at most, by its masses as a whole.
+  /// How far what it holds is from its way at most, by its masses as a whole.
   double coarse(std::size_t rod) const { return coarse_[rod]; }
   /// The same of its spans, at least by this; those of other rods may say anything.
   std::span<const double> motions(std::size_t rod, By by);
@@ -105,6 +92,7 @@ class PosedSelf {
   void look();
   bool within_margins(std::size_t rod) const;
   void wake(const std::vector<std::uint32_t>& moving);
+  std::vector<std::uint32_t> rods_of(const std::vector<std::uint32_t>& groups) const;  ///< ascending
   void search();
   bool take_arms(std::size_t rod);
   void place_vertices();
@@ -114,6 +102,7 @@ class PosedSelf {
   const SelfModel& model_;
   const StateView& state_;
   const SelfLedger* kept_;
+  double share_ = 0.0;  ///< of the ways of the ledger's list
   bool sound_ = true;
   std::unique_ptr<SelfScratch> scratch_;
   std::vector<std::vector<Vec3>> arms_;  ///< of those looked at
@@ -121,7 +110,7 @@ class PosedSelf {
   std::vector<double> coarse_, motions_;
   std::vector<By> bounded_;  ///< per rod
   std::shared_ptr<const SelfList> own_;
-  std::vector<std::uint32_t> awake_, concerned_, vertices_;  ///< concerned_: rods_of_awake()
+  std::vector<std::uint32_t> awake_, woken_, concerned_, vertices_;  ///< concerned_: rods of awake groups
   std::vector<Vec3> now_, before_, velocity_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -14,15 +13,16 @@ namespace {
 
 // A list serves while what moves stays within its margin: some steps' motion, and no less than what it takes
 // to come out of the range. Where steps are long against patches, all of which such a margin would have near
-// each other, little more than a step: to search each time costs less than to look at so much at each stage.
+// each other, little more than a step.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
-// What of a rod's room its motion may take before it is looked at by its curves, and stands anew.
-constexpr double kOfRoom = 0.7;
+// Ways are so many steps long at most, and grow by this where they were not left. What strayed from the last
+// ones, and as much again in parts, is expected of the next.
+constexpr double kFewestSteps = 3.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
-// A list is made anew where a next step with so many times this one's motion of masses would leave it, or
-// this share of its margin is all that is left.
-constexpr double kNextStep = 4.0, kLeastLeft = 0.6;
+// A list is made anew where a next step with so many times this one's motion would leave it, or one of so many
+// times this one's length; or one that strays so much more, at most, than all so far.
+constexpr double kNextStep = 1.5, kNextLength = 1.25, kMostSuddenly = 2.2;
 
 double farthest(Points a, Points b) {
   double most = 0.0;
@@ -36,6 +36,7 @@ class SelfKeeper {
   SelfKeeper(const SelfModel& model, const StateView& state, const SelfLedger* before)
       : model_(model),
         before_(before),
+        state_(state),
         surface_(model, state, before),
         ledger_(std::make_shared<SelfLedger>()) {
     if (!before) return;
@@ -44,7 +45,8 @@ class SelfKeeper {
     ledger_->looked_at = before->looked_at;
     ledger_->searches = before->searches;
     ledger_->placed = before->placed;
-    ledger_->steps = before->steps + 1;
+    ledger_->steps = before->steps + 1.0;
+    step_ = state.time - before->time;
   }
 
   std::shared_ptr<const SelfLedger> keep() {
@@ -56,6 +58,7 @@ class SelfKeeper {
     ledger_->looked_at += meetings.looked_at;
     for (const SelfResponse& meeting : meetings.all) add(meeting);
     sort_by_key(ledger_->meetings);
+    ledger_->time = state_.time;
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
       const Points p = surface_.masses(rod);
       ledger_->p.emplace_back(p.begin(), p.end());
@@ -64,47 +67,134 @@ class SelfKeeper {
     ledger_->known.assign(surface_.vertices().begin(), surface_.vertices().end());
     for (const std::uint32_t v : ledger_->known) ledger_->at.push_back(surface_.at(v));
     ledger_->placed += static_cast<long>(ledger_->known.size());
-    if (!before_ || surface_.own_list() || !carry_on()) search();
+    for (const std::uint32_t g : surface_.awake()) measure(surface_.list().groups[g]);
+    sort_by_key(ledger_->near);
+    if (carries_on()) {
+      ledger_->list = before_->list;
+      ledger_->awake = surface_.woken();
+    } else {
+      search();
+    }
     return std::move(ledger_);
   }
 
  private:
-  RodPose pose(std::size_t rod) {
-    return model_.pose(rod, surface_.curve(rod), surface_.masses(rod), surface_.arms(rod));
+  /// Whether the list of before will hold for a next step.
+  bool carries_on() {
+    if (!before_ || surface_.own_list()) return false;
+    const SelfList& list = *before_->list;
+    if (!list.holds_at(state_.time + kNextLength * step_)) return false;
+    const double share = list.share(state_.time), next = list.share(state_.time + step_);
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
+      // What stays is left by as much as masses move in a step; from a way one strays by the square of time.
+      const double times =
+          share > 0.0 ? std::min(kNextStep * next * next / (share * share), kMostSuddenly) : 1.0;
+      const double more = list.stays() ? kNextStep * farthest(surface_.masses(rod), before_->p[rod]) : 0.0;
+      if (surface_.coarse(rod) * times + more <= list.rod_room[rod]) continue;
+      const auto holds = [&](PosedSelf::By by) {
+        const std::span<const double> motions = surface_.motions(rod, by);
+        return std::all_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(), [&](std::uint32_t span) {
+          return motions[span] * times + more <= list.margin[span];
+        });
+      };
+      if (!holds(PosedSelf::By::masses) && !holds(PosedSelf::By::curves)) return false;
+    }
+    return true;
   }
 
   /// Everything anew from here.
   void search() {
-    ledger_->near.clear();
-    ledger_->base.clear();
-    for (std::size_t rod = 0; rod < model_.rods(); ++rod)
-      ledger_->base.push_back(std::make_shared<const RodPose>(pose(rod)));
+    auto list = std::make_shared<SelfList>();
+    list->from = state_.time;
+    list->margin = margins();
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod) surface_.curve(rod);
     const std::vector<Vec3> at = model_.place(surface_.pairs());
-    ledger_->list = model_.search(at, margins());
-    ledger_->searched = ledger_->base;
-    ledger_->since.assign(model_.mesh.spans.size(), 0.0);
-    ledger_->path.assign(model_.mesh.patches.size(), 0.0);
-    std::vector<double> budget;
-    for (const SelfGroup& group : ledger_->list->groups) budget.push_back(group.slack);
-    ledger_->budget = std::make_shared<const std::vector<double>>(std::move(budget));
-    ledger_->steps = 0;
-    ledger_->room.assign(model_.mesh.spans.size(), kInfinite);
-    std::vector<std::uint32_t> all(model_.rods());
-    std::iota(all.begin(), all.end(), 0U);
-    find_rooms(all);
+    std::vector<Vec3> after;
+    if (!set_out(*list, after)) stay(*list);
+    model_.search(at, list->stays() ? at : after, *list);
+    find_rooms(*list);
+    for (std::uint32_t g = 0; g < list->groups.size(); ++g)
+      if (!(list->groups[g].slack > 0.0)) ledger_->awake.push_back(g);
+    ledger_->list = std::move(list);
+    ledger_->steps = 0.0;
     ++ledger_->searches;
-    ledger_->placed += static_cast<long>(at.size());
+    ledger_->placed += static_cast<long>(at.size() + after.size());
   }
+
+  void stay(SelfList& list) {
+    list.to = kInfinite;
+    list.ways.clear();
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod)
+      list.ways.push_back(model_.stay(rod, surface_.curve(rod), surface_.masses(rod), surface_.arms(rod)));
+  }
+  /// On the way that they came in the last step. False where there is none.
+  bool set_out(SelfList& list, std::vector<Vec3>& after) {
+    if (!before_ || !(step_ > 0.0)) return false;
+    std::vector<CurvePair> there;
+    set_out(list, there, ahead_);
+    double shorter = 1.0;
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod)
+      shorter = std::max(shorter, std::sqrt(list.ways[rod].bow / most_bow(rod, list)));
+    if (shorter > 1.0) set_out(list, there, std::max(ahead_ / (1.01 * shorter), kFewestSteps));
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
+      if (list.ways[rod].bow <= most_bow(rod, list)) continue;
+      list.ways[rod] = model_.stay(rod, surface_.curve(rod), surface_.masses(rod), surface_.arms(rod));
+      there[rod] = surface_.curve(rod);
+    }
+    if (!(list.to > list.from) || !(list.to < kInfinite)) return false;
+    after = model_.place(there);
+    return all_finite(after);
+  }
+  void set_out(SelfList& list, std::vector<CurvePair>& there, double steps) {
+    list.to = list.from + steps * step_;
+    list.ways.clear();
+    there.clear();
+    for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
+      const Points p = surface_.masses(rod);
+      const std::vector<Vec3>& arm = surface_.arms(rod);
+      RodWay way{{p.begin(), p.end()}, arm, {}, {}, {}, {}, 0.0};
+      std::vector<Vec3> p_there, arm_there;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        way.p_change.push_back(steps * (p[i] - before_->p[rod][i]));
+        way.arm_change.push_back(steps * (arm[i] - before_->arm[rod][i]));
+        p_there.push_back(p[i] + way.p_change[i]);
+        arm_there.push_back(arm[i] + way.arm_change[i]);
+      }
+      there.push_back(model_.curve(rod, p_there, arm_there));
+      list.ways.push_back(model_.way(rod, surface_.curve(rod), there.back(), std::move(way)));
+    }
+  }
+  double most_bow(std::size_t rod, const SelfList& list) const {
+    return kBowOfMargin * least_margin(rod, list);
+  }
+  double least_margin(std::size_t rod, const SelfList& list) const {
+    double least = kInfinite;
+    for (const std::uint32_t span : model_.spans_of[rod]) least = std::min(least, list.margin[span]);
+    return least;
+  }
+
+  /// So many steps the next ways are long: as those of the last list were, more where it was not left.
+  double steps_ahead() const {
+    const SelfList& last = *before_->list;
+    const bool ended = !last.stays() && !last.holds_at(state_.time + kNextLength * step_);
+    return std::clamp((ended ? kLonger : 1.0) * ledger_->steps + kNextLength, kFewestSteps, kMostSteps);
+  }
+
   std::vector<double> margins() {
     std::vector<double> margin(model_.mesh.spans.size(), kMarginOfRange * model_.law.range);
     if (!before_) return margin;
-    std::vector<double> moved(margin.size(), 0.0);
-    const double steps = static_cast<double>(before_->steps + 1);
+    ahead_ = steps_ahead();
+    const SelfList& last = *before_->list;
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
-      model_.motions(rod, *before_->searched[rod], surface_.curve(rod), moved);
+      const double step = farthest(surface_.masses(rod), before_->p[rod]);
       for (const std::uint32_t span : model_.spans_of[rod])
-        if (moved[span] < kInfinite)
-          margin[span] = std::max(margin[span], margin_for(span, moved[span] / steps));
+        margin[span] = std::max(margin[span], margin_for(span, step));
+      if (last.stays() || surface_.own_list()) continue;
+      const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
+      const double parts = ahead_ * step_ / (state_.time - last.from);
+      for (const std::uint32_t span : model_.spans_of[rod])
+        margin[span] = std::clamp(kExpected * motions[span] * parts * parts,
+                                  kMarginOfRange * model_.law.range, margin[span]);
     }
     return margin;
   }
@@ -113,116 +203,45 @@ class SelfKeeper {
     return std::min(kMarginOfStep * step, std::max(kOfLongStep * step, kOfPatch * model_.patch_size[span]));
   }
 
-  /// Within which of its base nothing that a span holds comes near, whatever the others do within theirs.
-  void find_rooms(const std::vector<std::uint32_t>& rods) {
-    for (const std::uint32_t rod : rods)
-      for (const std::uint32_t span : model_.spans_of[rod])
-        ledger_->room[span] = ledger_->list->margin[span] - ledger_->since[span];
-    for (const std::uint32_t rod : rods)
-      for (const std::uint32_t g : ledger_->list->with(rod)) {
-        const double half = 0.5 * ledger_->slack(g);
-        for (const std::uint32_t patch : {ledger_->list->groups[g].p, ledger_->list->groups[g].q})
-          for (const std::uint32_t span : model_.mesh.patches[patch].spans)
-            ledger_->room[span] = std::min(ledger_->room[span], half);
-      }
-    ledger_->rod_room.assign(model_.rods(), kInfinite);
-    for (std::size_t i = 0; i < ledger_->room.size(); ++i) {
-      double& least = ledger_->rod_room[model_.mesh.spans[i].pair];
-      least = std::min(least, ledger_->room[i]);
+  void find_rooms(SelfList& list) const {
+    list.room = list.margin;
+    for (const SelfGroup& group : list.groups) {
+      const double half = 0.5 * std::min(group.slack, group.slack_after);
+      for (const std::uint32_t patch : {group.p, group.q})
+        for (const std::uint32_t span : model_.mesh.patches[patch].spans)
+          list.room[span] = std::min(list.room[span], half);
+    }
+    list.rod_room.assign(model_.rods(), kInfinite);
+    for (std::size_t i = 0; i < list.room.size(); ++i) {
+      double& least = list.rod_room[model_.mesh.spans[i].pair];
+      least = std::min(least, list.room[i]);
     }
   }
 
-  /// The list of before; rods that moved on, and those of groups that were looked at, stand anew.
-  /// \return false where the list will not hold for long
-  bool carry_on() {
-    ledger_->list = before_->list;
-    ledger_->base = before_->base;
-    ledger_->searched = before_->searched;
-    ledger_->since = before_->since;
-    ledger_->path = before_->path;
-    ledger_->budget = before_->budget;
-    ledger_->room = before_->room;
-    std::vector<std::uint32_t> moves;
-    for (std::uint32_t rod = 0; rod < model_.rods(); ++rod)
-      if (moved_on(rod)) moves.push_back(rod);
-    const std::vector<std::uint32_t> near = surface_.rods_of_awake();
-    moves.insert(moves.end(), near.begin(), near.end());
-    sort_once(moves);
-    if (!stand_anew(moves)) return false;
-    if (!surface_.awake().empty()) measure();
-    find_rooms(moves);
-    return true;
-  }
-  bool moved_on(std::size_t rod) {
-    if (surface_.bounded(rod) == PosedSelf::By::curves) return true;
-    if (surface_.coarse(rod) <= kOfRoom * before_->rod_room[rod]) return false;
-    const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::masses);
-    return std::any_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(),
-                       [&](std::uint32_t span) { return !(motions[span] <= kOfRoom * before_->room[span]); });
-  }
-  bool stand_anew(const std::vector<std::uint32_t>& rods) {
-    std::vector<double> way(model_.mesh.spans.size(), 0.0), far(way.size(), kInfinite);
-    std::vector<std::uint32_t> patches;
-    for (const std::uint32_t rod : rods) {
-      const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
-      if (half_used(rod, motions)) model_.motions(rod, *before_->searched[rod], surface_.curve(rod), far);
-      const double next = kNextStep * farthest(surface_.masses(rod), before_->p[rod]);
-      for (const std::uint32_t span : model_.spans_of[rod]) {
-        way[span] = motions[span];
-        ledger_->since[span] = std::min(ledger_->since[span] + way[span], far[span]);
-        const double margin = ledger_->list->margin[span];
-        if (!(margin - ledger_->since[span] > std::min(next, kLeastLeft * margin))) return false;
-      }
-      patches.insert(patches.end(), model_.patches_of[rod].begin(), model_.patches_of[rod].end());
-      ledger_->base[rod] = std::make_shared<const RodPose>(pose(rod));
-    }
-    sort_once(patches);
-    for (const std::uint32_t patch : patches) ledger_->path[patch] += model_.of_patch(patch, way);
-    return true;
-  }
-
-  /// Then it pays to ask how far the rod is from where it was searched, since ways there and back add up.
-  bool half_used(std::uint32_t rod, std::span<const double> motions) const {
-    return std::any_of(model_.spans_of[rod].begin(), model_.spans_of[rod].end(), [&](std::uint32_t span) {
-      return before_->since[span] + motions[span] > 0.5 * before_->list->margin[span];
-    });
-  }
-
-  /// How near what was looked at is: bounds add up from step to step and would wake everything in time.
-  void measure() {
-    std::vector<double> budget = *before_->budget;
-    for (const std::uint32_t g : surface_.awake()) {
-      const SelfGroup& group = ledger_->list->groups[g];
-      budget[g] = measure(g, group) + ledger_->path[group.p] + ledger_->path[group.q];
-    }
-    ledger_->budget = std::make_shared<const std::vector<double>>(std::move(budget));
-  }
-  double measure(std::uint32_t g, const SelfGroup& group) {
+  /// What is near of what was looked at, that it need not be sought at each stage.
+  void measure(const SelfGroup& group) {
     const double moved = surface_.moved(group);
-    const NearGroup* known = surface_.known(g);
+    const NearGroup* known = surface_.known(group);
     if (known && known->left > 3.0 * moved) {
-      ledger_->near.push_back({g, known->pairs, known->faces, known->edges, known->left - moved});
+      ledger_->near.push_back({group.key(), known->pairs, known->faces, known->edges, known->left - moved});
     } else {
       const double left = std::max(kLeftOfRange * model_.law.range, kLeftOfStep * moved);
       auto pairs =
           std::make_shared<const SelfPairs>(model_.pairs(group, surface_.placed(), model_.meets() + left));
       const std::vector<double> faces(pairs->faces.size(), 0.0), edges(pairs->edges.size(), 0.0);
-      ledger_->near.push_back({g, std::move(pairs), faces, edges, left});
+      ledger_->near.push_back({group.key(), std::move(pairs), faces, edges, left});
     }
     NearGroup& near = ledger_->near.back();
-    double least = near.left;
     const double enough = 3.0 * moved;
     const auto mend = [&](double& slack, auto&& distance) {
       slack -= moved;
       if (slack <= enough) slack = distance() - model_.meets();
-      least = std::min(least, slack);
     };
     const PlacedVertices at = surface_.placed();
     for (std::size_t i = 0; i < near.faces.size(); ++i)
       mend(near.faces[i], [&] { return model_.distance(near.pairs->faces[i], at); });
     for (std::size_t i = 0; i < near.edges.size(); ++i)
       mend(near.edges[i], [&] { return model_.edge_distance(near.pairs->edges[i], at); });
-    return least;
   }
 
   void add(const SelfResponse& meeting) {
@@ -250,6 +269,9 @@ class SelfKeeper {
 
   const SelfModel& model_;
   const SelfLedger* before_;
+  const StateView& state_;
+  double step_ = 0.0;   ///< in time, from the ledger before
+  double ahead_ = 0.0;  ///< so many steps the next ways are long
   PosedSelf surface_;
   std::shared_ptr<SelfLedger> ledger_;
 };

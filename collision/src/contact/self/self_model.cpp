@@ -77,30 +77,37 @@ CurvePair SelfModel::curve(std::size_t rod, Points p, Points arm) const {
   return points().curves().through(points().rods()[rod], p, q);
 }
 
-RodPose SelfModel::pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const {
-  RodPose result{{p.begin(), p.end()}, std::move(arm), {}, {kInfinite, kInfinite, 0.0}};
+RodWay SelfModel::way(std::size_t rod, const CurvePair& from, const CurvePair& to, RodWay way) const {
+  way.worst = {kInfinite, kInfinite, 0.0};
+  way.bow = 0.0;
   for (const std::uint32_t i : spans_of[rod]) {
-    result.spans.push_back(pose_of(mesh.spans[i], pair));
-    const SpanShape& shape = result.spans.back().shape;
-    SpanShape& worst = result.worst;
-    worst = {std::min(worst.least_speed, shape.least_speed), std::min(worst.least_across, shape.least_across),
-             std::max(worst.most_offset, shape.most_offset)};
+    way.spans.push_back(way_of(mesh.spans[i], from, to));
+    const SpanShape& shape = way.spans.back().shape;
+    way.worst = {std::min(way.worst.least_speed, shape.least_speed),
+                 std::min(way.worst.least_across, shape.least_across),
+                 std::max(way.worst.most_offset, shape.most_offset)};
+    way.bow = std::max(way.bow, way.spans.back().bow);
   }
-  return result;
+  return way;
+}
+
+RodWay SelfModel::stay(std::size_t rod, const CurvePair& there, Points p, Points arm) const {
+  const std::vector<Vec3> none(p.size(), Vec3::Zero());
+  return way(rod, there, there, {{p.begin(), p.end()}, {arm.begin(), arm.end()}, none, none, {}, {}, 0.0});
 }
 
 namespace {
 
-/// How far masses are from where they were.
+/// How far masses are from their way.
 /// \param each  takes the squares for a mass, the edge that ends there and its arm
 template <class Each>
-RodMotion motion_of(const RodPose& from, Points p, Points arm, Each&& each) {
+RodMotion motion_of(const RodWay& from, double share, Points p, Points arm, Each&& each) {
   RodMotion most;
   Vec3 last = Vec3::Zero();
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vec3 way = p[i] - from.p[i];
+    const Vec3 way = p[i] - from.p[i] - share * from.p_change[i];
     const double mass = way.squaredNorm(), edge = i > 0 ? (way - last).squaredNorm() : 0.0;
-    const double turn = (arm[i] - from.arm[i]).squaredNorm();
+    const double turn = (arm[i] - from.arm[i] - share * from.arm_change[i]).squaredNorm();
     most.mass = std::max(most.mass, mass);
     most.edge = std::max(most.edge, edge);
     most.arm = std::max(most.arm, turn);
@@ -114,49 +121,57 @@ RodMotion motion_of(const RodPose& from, Points p, Points arm, Each&& each) {
 }  // namespace
 
 /// Each number that motion() takes only makes it larger, so that the worst of all spans bounds each of them.
-double SelfModel::coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const {
-  const RodMotion most = motion_of(from, p, arm, [](std::size_t, double, double, double) {});
-  return motion(rod_gain[rod], rod_reach[rod], from.worst, most);
+double SelfModel::coarse_motion(std::size_t rod, const RodWay& way, double share, Points p,
+                                Points arm) const {
+  const RodMotion most = motion_of(way, share, p, arm, [](std::size_t, double, double, double) {});
+  return motion(rod_gain[rod], rod_reach[rod], way.worst, most) + strays(way.bow, share);
 }
 
 /// A clamped leaf swings at its tip and hardly at its foot: what is near there sleeps on.
-void SelfModel::local_motions(std::size_t rod, const RodPose& from, Points p, Points arm,
+void SelfModel::local_motions(std::size_t rod, const RodWay& way, double share, Points p, Points arm,
                               std::span<double> motions) const {
   MassMotions masses{std::vector<double>(p.size()), std::vector<double>(p.size(), 0.0),
                      std::vector<double>(p.size())};
-  const RodMotion most = motion_of(from, p, arm, [&](std::size_t i, double mass, double edge, double turn) {
+  const auto note = [&](std::size_t i, double mass, double edge, double turn) {
     masses.mass[i] = std::sqrt(mass);
     if (i > 0) masses.edge[i - 1] = std::sqrt(edge);
     masses.arm[i] = std::sqrt(turn);
-  });
+  };
+  const RodMotion most = motion_of(way, share, p, arm, note);
   for (std::size_t k = 0; k < spans_of[rod].size(); ++k) {
     const std::uint32_t i = spans_of[rod][k];
-    motions[i] = motion(span_gain[i], mesh.spans[i], from.spans[k].shape, most, masses);
+    motions[i] = motion(span_gain[i], mesh.spans[i], way.spans[k].shape, most, masses) +
+                 strays(way.spans[k].bow, share);
   }
 }
 
-void SelfModel::motions(std::size_t rod, const RodPose& from, const CurvePair& now,
+void SelfModel::motions(std::size_t rod, const RodWay& way, double share, const CurvePair& now,
                         std::span<double> motions) const {
   for (std::size_t k = 0; k < spans_of[rod].size(); ++k) {
     const std::uint32_t i = spans_of[rod][k];
-    motions[i] = motion(mesh.spans[i], from.spans[k], now);
-    if (!(motions[i] < kInfinite)) motions[i] = far_at_most(i, from, now);
+    motions[i] = motion(mesh.spans[i], way.spans[k], share, now);
+    if (!(motions[i] < kInfinite)) motions[i] = far_at_most(i, way, share, now);
   }
 }
 
 /// Where a curve turns round within a span, bounds by its Bezier points say nothing, and an infinite one
-/// would refuse a state that is sound: what is bound to it is placed twice, by this rod's shares alone, since
-/// others may have their base at another time.
-double SelfModel::far_at_most(std::size_t span, const RodPose& from, const CurvePair& now) const {
+/// would refuse a state that is sound: what is bound to it is placed at both ends of its way and now, by this
+/// rod's shares alone, since others go their own.
+double SelfModel::far_at_most(std::size_t span, const RodWay& way, double share, const CurvePair& now) const {
   const std::size_t rod = mesh.spans[span].pair;
-  const CurvePair before = curve(rod, from.p, from.arm);
+  std::vector<Vec3> p = way.p, arm = way.arm;
+  const CurvePair from = curve(rod, p, arm);
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] += way.p_change[i], arm[i] += way.arm_change[i];
+  const CurvePair to = curve(rod, p, arm);
   double most = 0.0;
   std::vector<BoundShare> shares;
   for (const std::uint32_t vertex : mesh.bound_to[span]) {
     points().points().shares(vertex, shares);
-    for (const BoundShare& share : shares)
-      if (share.pair == rod)
-        most = std::max(most, (from_axial(now, share.record) - from_axial(before, share.record)).norm());
+    for (const BoundShare& one : shares) {
+      if (one.pair != rod) continue;
+      const Vec3 taken = (1.0 - share) * from_axial(from, one.record) + share * from_axial(to, one.record);
+      most = std::max(most, (from_axial(now, one.record) - taken).norm());
+    }
   }
   return most * (1.0 + 1e-9);
 }

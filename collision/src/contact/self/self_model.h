@@ -14,33 +14,49 @@ namespace tendril::contact {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Where a rod was when what is bound to it was last bounded from its curves, and how it may be from there.
-/// "Rods" are those of RodPoints::rods(), by their place among them.
-struct RodPose {
-  std::vector<Vec3> p, arm;     ///< masses, and orientation masses less them
-  std::vector<SpanPose> spans;  ///< its spans
-  SpanShape worst;              ///< of all of them
+/// The way of a rod from where it was to where it will be, straight. What is bound to it is taken to go
+/// straight, too (SpanWay). "Rods" are those of RodPoints::rods(), by their place among them.
+struct RodWay {
+  std::vector<Vec3> p, arm;                ///< masses, and orientation masses less them
+  std::vector<Vec3> p_change, arm_change;  ///< in all
+  std::vector<SpanWay> spans;              ///< its spans
+  SpanShape worst;                         ///< of all of them
+  double bow;                              ///< the largest
 };
-using RodPoses = std::vector<std::shared_ptr<const RodPose>>;
 
 /// Two patches that may come near each other.
 struct SelfGroup {
   std::uint32_t p, q;
-  double slack;  ///< their distance less that where response begins, or less, when searched
+  /// Their distance less that where response begins, or less, at the beginning and the end of their ways: of
+  /// a plane that parts them at both, each recedes evenly, or its nearest corner faster.
+  double slack, slack_after;
+
+  std::uint64_t key() const { return (std::uint64_t{p} << 32) | q; }
+  double slack_at(double share) const { return (1.0 - share) * slack + share * slack_after; }
 };
 
-/// All pairs of patches that may come near each other while what each span holds moves by no more than its
-/// margin.
+/// All pairs of patches that may come near each other from one time to another, while what each span holds
+/// strays from its way by no more than its margin.
+///
+/// Between accepted states a vertex moves straight, as its way is, and so strays no farther from it than it
+/// does at one or the other in shares: what sleeps at both sleeps between them.
 struct SelfList {
-  std::vector<double> margin;  ///< per span
+  double from = 0.0, to = kInfinite;  ///< times; where ways stay, any time is within
+  std::vector<RodWay> ways;           ///< per rod; none where the list is for one state
+  std::vector<double> margin;         ///< per span
   std::vector<SelfGroup> groups;
   /// Per rod: groups with a patch of its, [begin[rod], begin[rod + 1]) of of_rod.
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> of_rod;
+  /// Per span: within which of its way nothing comes near and the list holds; per rod: the least of its spans.
+  std::vector<double> room, rod_room;
 
   std::span<const std::uint32_t> with(std::size_t rod) const {
     return std::span(of_rod).subspan(begin[rod], begin[rod + 1] - begin[rod]);
   }
+  bool stays() const { return to == kInfinite; }
+  bool holds_at(double time) const { return stays() || (time >= from && time <= to); }
+  double share(double time) const { return stays() ? 0.0 : (time - from) / (to - from); }
 };
 
 /// A vertex of the mesh and a face, or two edges.
@@ -97,14 +113,18 @@ struct SelfModel {
   void give_back(std::unique_ptr<SelfScratch> scratch) const;
 
   CurvePair curve(std::size_t rod, Points p, Points arm) const;
-  RodPose pose(std::size_t rod, const CurvePair& pair, Points p, std::vector<Vec3> arm) const;
-  /// How far what a rod holds moved at most, by its masses alone: 0.1 us.
-  double coarse_motion(std::size_t rod, const RodPose& from, Points p, Points arm) const;
+  /// \param from, to  its curves there and after what changes
+  RodWay way(std::size_t rod, const CurvePair& from, const CurvePair& to, RodWay masses) const;
+  /// Of a rod that stays.
+  RodWay stay(std::size_t rod, const CurvePair& there, Points p, Points arm) const;
+  /// How far what a rod holds is from its way at most, by its masses alone: 0.1 us.
+  double coarse_motion(std::size_t rod, const RodWay& way, double share, Points p, Points arm) const;
   /// The same for each of its spans, by masses nearby; `motions` are those of all spans. 0.3 us.
-  void local_motions(std::size_t rod, const RodPose& from, Points p, Points arm,
+  void local_motions(std::size_t rod, const RodWay& way, double share, Points p, Points arm,
                      std::span<double> motions) const;
   /// And by curves. Some us.
-  void motions(std::size_t rod, const RodPose& from, const CurvePair& now, std::span<double> motions) const;
+  void motions(std::size_t rod, const RodWay& way, double share, const CurvePair& now,
+               std::span<double> motions) const;
   /// Of a patch: a blended vertex moves as a mean of the points it is made of.
   double of_patch(std::uint32_t patch, std::span<const double> motions) const {
     double most = 0.0;
@@ -113,8 +133,10 @@ struct SelfModel {
     return most;
   }
 
-  /// Pairs of patches nearer than where response begins and both margins. `at` are all vertices.
-  std::shared_ptr<const SelfList> search(std::span<const Vec3> at, std::vector<double> margin) const;
+  /// Fills in the groups of a list: pairs of patches nearer, somewhere on their way, than where response
+  /// begins and both margins.
+  /// \param at, after  all vertices at the beginning and the end; the same where they stay
+  void search(std::span<const Vec3> at, std::span<const Vec3> after, SelfList& list) const;
   /// What of two patches is within `far` of each other.
   SelfPairs pairs(const SelfGroup& group, const PlacedVertices& at, double far) const;
   double distance(const SelfPair& vertex_and_face, const PlacedVertices& at) const;
@@ -127,7 +149,7 @@ struct SelfModel {
   }
 
  private:
-  double far_at_most(std::size_t span, const RodPose& before, const CurvePair& now) const;
+  double far_at_most(std::size_t span, const RodWay& way, double share, const CurvePair& now) const;
 
   mutable std::mutex lock_;  ///< of what follows: a force is evaluated by several threads
   mutable std::vector<std::unique_ptr<SelfScratch>> scratch_;

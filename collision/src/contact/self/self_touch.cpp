@@ -73,7 +73,7 @@ class SelfTouches {
     const SelfGroup& group = surface_.list().groups[g];
     const double moved = surface_.moved(group);
     far_ = model_.meets() + (model_.barrier() ? moved : 0.0);
-    const NearGroup* known = surface_.known(g);
+    const NearGroup* known = surface_.known(group);
     if (known && known->left > moved) return look_at(*known->pairs, &known->faces, &known->edges, moved);
     look_at(model_.pairs(group, surface_.placed(), far_), nullptr, nullptr, moved);
   }

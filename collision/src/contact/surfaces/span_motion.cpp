@@ -12,6 +12,7 @@ using Column = std::array<Vec3, kMaxDegree + 1>;
 
 using Controls = SpanControls;
 
+/// \param place  takes a control point to where it is seen from
 template <class Place>
 Controls controls(const UsedSpan& span, const CurvePair& pair, const Place& place) {
   const Points u = pair.primary().control_points().subspan(span.first, span.count);
@@ -34,6 +35,10 @@ Controls controls(const UsedSpan& span, const CurvePair& pair, const Place& plac
   return out;
 }
 
+Controls controls_of(const UsedSpan& span, const CurvePair& pair) {
+  return controls(span, pair, [](const Vec3& x) { return x; });
+}
+
 double widest(const Column& a, const Column& b, std::size_t count) {
   double most = 0.0;
   for (std::size_t i = 0; i < count; ++i) most = std::max(most, (a[i] - b[i]).squaredNorm());
@@ -53,7 +58,7 @@ Vec3 mean(const Column& a, std::size_t count) {
   return sum;
 }
 
-SpanShape shape_of(const UsedSpan& span, const Controls& c);
+SpanShape shape_of(const UsedSpan& span, const Controls& a, const Controls& b);
 
 }  // namespace
 
@@ -88,25 +93,30 @@ UsedSpan::UsedSpan(std::uint32_t of, const KnotVector& knots, int span, int part
 }
 
 SpanShape shape_of(const UsedSpan& span, const CurvePair& pair) {
-  return shape_of(span, controls(span, pair, [](const Vec3& x) { return x; }));
+  const Controls here = controls_of(span, pair);
+  return shape_of(span, here, here);
 }
 
 namespace {
 
 /// c' lies in the hull of its Bezier points and so goes at least as far along their mean as the least of
 /// them does; n likewise along e, the part of its mean across that of c'. Of n' = n - (n . Z) Z along e
-/// that leaves at least min n . e - |n| max |Z . e|.
-SpanShape shape_of(const UsedSpan& span, const Controls& c) {
+/// that leaves at least min n . e - |n| max |Z . e|. Points that go straight are least, or farthest, at either
+/// end of their way.
+SpanShape shape_of(const UsedSpan& span, const Controls& a, const Controls& b) {
   const std::size_t rates = span.count - 1;
-  const Vec3 along = mean(c.rate, rates).stableNormalized();
-  const double speed = least_along(c.rate, rates, along);
-  const Vec3 offset = mean(c.offset, span.count);
+  const Vec3 along = (mean(a.rate, rates) + mean(b.rate, rates)).stableNormalized();
+  const double speed = std::min(least_along(a.rate, rates, along), least_along(b.rate, rates, along));
+  const Vec3 offset = mean(a.offset, span.count) + mean(b.offset, span.count);
   const Vec3 across = (offset - offset.dot(along) * along).stableNormalized();
-  double aside = 0.0, longest = 0.0;
-  for (std::size_t i = 0; i < rates; ++i) aside = std::max(aside, std::abs(c.rate[i].dot(across)));
-  for (std::size_t i = 0; i < span.count; ++i) longest = std::max(longest, c.offset[i].norm());
+  double aside = 0.0, longest = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const Controls* c : {&a, &b}) {
+    for (std::size_t i = 0; i < rates; ++i) aside = std::max(aside, std::abs(c->rate[i].dot(across)));
+    for (std::size_t i = 0; i < span.count; ++i) longest = std::max(longest, c->offset[i].norm());
+    least = std::min(least, least_along(c->offset, span.count, across));
+  }
   if (!(speed > 0.0)) return {0.0, 0.0, longest};
-  return {speed, least_along(c.offset, span.count, across) - longest * aside / speed, longest};
+  return {speed, least - longest * aside / speed, longest};
 }
 
 /// The largest changes of Bezier points of c, of c' and of n.
@@ -245,47 +255,75 @@ double motion(const UsedSpan& span, const SpanShape& shape, const PosedFrom& bef
 
 namespace {
 
-/// In a frame that goes with it; any frame would do, and one that does not exist does nothing.
-SpanPose going_with(const UsedSpan& span, const CurvePair& pair) {
-  SpanPose result;
-  result.seen = controls(span, pair, [](const Vec3& x) { return x; });
-  Controls& c = result.seen;
-  result.position = mean(c.at, span.count) / static_cast<double>(span.count);
-  const Vec3 z = mean(c.rate, span.count - 1).stableNormalized();
-  const Vec3 x = mean(c.offset, span.count).cross(z).stableNormalized();
-  if (x.squaredNorm() > 0.5) result.rotation << x, z.cross(x), z;
-  const Mat3 back = result.rotation.transpose();
-  double radius = 0.0;
-  for (std::size_t i = 0; i < span.count; ++i) {
-    c.at[i] = back * (c.at[i] - result.position);
-    c.offset[i] = back * c.offset[i];
-    if (i + 1 < span.count) c.rate[i] = back * c.rate[i];
-    radius = std::max(radius, c.at[i].squaredNorm());
+/// The largest components of some points along a direction and across it.
+struct Extent {
+  double along = 0.0, across = 0.0;
+  void take(const Vec3& x, const Vec3& way) {
+    const double to = x.dot(way);
+    along = std::max(along, std::abs(to));
+    across = std::max(across, (x - to * way).norm());
   }
-  result.radius = std::sqrt(radius);
-  return result;
+};
+
+double bow_of(const UsedSpan& span, const SpanWay& way, const Controls& there) {
+  const std::size_t rates = span.count - 1;
+  const Vec3 z = (mean(way.at.rate, rates) + mean(there.rate, rates)).stableNormalized();
+  Extent of_d, of_e, of_rate, of_n;
+  for (std::size_t i = 0; i < rates; ++i) {
+    of_d.take(way.change.rate[i], z);
+    of_rate.take(way.at.rate[i], z);
+    of_rate.take(there.rate[i], z);
+  }
+  for (std::size_t i = 0; i < span.count; ++i) {
+    of_e.take(way.change.offset[i], z);
+    of_n.take(way.at.offset[i], z);
+    of_n.take(there.offset[i], z);
+  }
+  const double d = std::hypot(of_d.along, of_d.across), e = std::hypot(of_e.along, of_e.across);
+  if (d == 0.0 && e == 0.0) return 0.0;
+  const auto [s, m, n] = way.shape;
+  if (!(s > 0.0) || !(m > 0.0)) return std::numeric_limits<double>::infinity();
+  const double aslant = std::min(2.0, of_rate.across / s);  // |Z - z|
+  const double a = d / s, p = (of_d.along + d * aslant) / s;
+  const double e_across = of_e.across + e * aslant, n_along = of_n.along + n * aslant;
+  const double z2 = a * a + 2.0 * a * p, n_z2 = n_along * a * a + 2.0 * n * a * p;
+  const double b = (e_across + n * a + n_along * a) / m;
+  const double m2 = 2.0 * e_across * a + n_z2 + 2.0 * (e + n * a) * a + n_along * z2;
+  const double y2 = m2 / m + b * b + 2.0 * b * (e_across + n_along * a) / m;
+  return (y2 + 2.0 * a * b + z2) * span.reach / 8.0 * kUp;
 }
 
 }  // namespace
 
-SpanPose pose_of(const UsedSpan& span, const CurvePair& pair) {
-  SpanPose result = going_with(span, pair);
-  result.shape = shape_of(span, result.seen);
-  return result;
+SpanWay way_of(const UsedSpan& span, const CurvePair& from, const CurvePair& to) {
+  SpanWay way;
+  way.at = controls_of(span, from);
+  const Controls there = controls_of(span, to);
+  way.shape = shape_of(span, way.at, there);
+  for (std::size_t i = 0; i < span.count; ++i) {
+    way.change.at[i] = there.at[i] - way.at.at[i];
+    way.change.offset[i] = there.offset[i] - way.at.offset[i];
+    way.change.rate[i].setZero();
+    if (i + 1 < span.count) way.change.rate[i] = there.rate[i] - way.at.rate[i];
+  }
+  way.bow = bow_of(span, way, there);
+  return way;
 }
 
-/// With x = P + R y before and x' = P' + R' y' now, x' - x = P' - P + (R' - R) y + R' (y' - y). A rotation by
-/// theta less none has the norm 2 sin(theta / 2), and sqrt(2) times that in Frobenius' sense.
-double motion(const UsedSpan& span, const SpanPose& before, const CurvePair& pair) {
-  const SpanPose now = going_with(span, pair);
-  const double turned = (now.rotation - before.rotation).norm() / std::sqrt(2.0);
-  const double carried = (now.position - before.position).norm() + turned * (before.radius + span.reach);
-  const double at = widest(before.seen.at, now.seen.at, span.count);
-  const double turns_within =
-      turns(before.shape, {0.0, widest(before.seen.rate, now.seen.rate, span.count - 1),
-                           widest(before.seen.offset, now.seen.offset, span.count)});
-  const double size = span.reach + before.position.norm() + now.position.norm() + before.radius + now.radius;
-  return (carried + at + span.reach * turns_within) * kUp + 1e-12 * size;
+double motion(const UsedSpan& span, const SpanWay& way, double share, const CurvePair& pair) {
+  const Controls now = controls_of(span, pair);
+  double at = 0.0, rate = 0.0, offset = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < span.count; ++i) {
+    at = std::max(at, (now.at[i] - way.at.at[i] - share * way.change.at[i]).squaredNorm());
+    offset =
+        std::max(offset, (now.offset[i] - way.at.offset[i] - share * way.change.offset[i]).squaredNorm());
+    size = std::max(size, now.at[i].squaredNorm());
+    if (i + 1 < span.count)
+      rate = std::max(rate, (now.rate[i] - way.at.rate[i] - share * way.change.rate[i]).squaredNorm());
+  }
+  const double turned = turns(way.shape, {0.0, std::sqrt(rate), std::sqrt(offset)});
+  return (std::sqrt(at) + span.reach * turned + strays(way.bow, share)) * kUp +
+         1e-12 * (2.0 * std::sqrt(size) + std::sqrt(at) + span.reach);
 }
 
 }  // namespace tendril::contact

@@ -81,17 +81,29 @@ double motion(const LocalGain& gain, const UsedSpan& span, const SpanShape& shap
 struct SpanControls {
   std::array<Vec3, kMaxDegree + 1> at, rate, offset;
 };
-/// A span at a state, as bounds from there on want it.
-struct SpanPose {
-  SpanShape shape;
-  Mat3 rotation = Mat3::Identity();  ///< of a frame that goes with it: the axes of the means of c' and n
-  Vec3 position;                     ///< its origin, the mean of the Bezier points
-  SpanControls seen;                 ///< from that frame
-  double radius;                     ///< of the Bezier points about its origin
+/// A span whose control points go straight from where they are to where they will be, by a share of the way
+/// from 0 to 1, and with it what is bound to it. That is taken to go straight, too, from where it is to where
+/// it will be; frames turn on the way, and it strays a little.
+struct SpanWay {
+  SpanControls at, change;
+  SpanShape shape;  ///< all the way
+  double bow;  ///< how far what is bound to it strays at most, halfway; infinite where frames may turn round
 };
-SpanPose pose_of(const UsedSpan& span, const CurvePair& pair);
-/// The same as motion() between two poses as the world sees them, sharper where the span moves as one: how
-/// far the frame that goes with it takes what it holds, and how far that moves as seen from there.
-double motion(const UsedSpan& span, const SpanPose& before, const CurvePair& now);
+/// How far after a share of the way.
+inline double strays(double bow, double share) {
+  return share > 0.0 && share < 1.0 ? 4.0 * share * (1.0 - share) * bow : 0.0;
+}
+/// Off its chord a point is by an eighth of what its second derivatives by the share are at most. Of Z = D / |D|,
+/// D = c', d all that D changes, s the least |D|: Z' = d across Z / |D|, at most a = |d| / s, and
+///   Z'' = -|Z'|^2 Z - 2 (Z.d / |D|) Z'.
+/// Of Y = m / |m|, m = n - (n.Z) Z, e all that n changes:
+///   m'  = e across Z - (n.Z') Z - (n.Z) Z',
+///   m'' = -(2 e.Z' + n.Z'') Z - 2 (e.Z + n.Z') Z' - (n.Z) Z'',
+///   Y'' = (m'' across Y) / |m| - |Y'|^2 Y - 2 (|m|' / |m|) Y';
+/// of the axis across both at most |Y''| + 2 |Y'| |Z'| + |Z''|. Z.d, n.Z and e across Z are bounded by those
+/// along the mean of c' and how far Z is from it.
+SpanWay way_of(const UsedSpan& span, const CurvePair& from, const CurvePair& to);
+/// How far what is bound to the span is at most from where it is taken to be after a share of its way.
+double motion(const UsedSpan& span, const SpanWay& way, double share, const CurvePair& now);
 
 }  // namespace tendril::contact
