@@ -45,8 +45,9 @@ TEST(SelfLedger, IsTheSameWithALedgerAndWithout) {
 }
 
 /// Nor over many small steps, with what a ledger has taken over from the one before: a leaf comes down on
-/// another, slides over it and goes up again, as a whole or bending, and is looked at between steps too. Where
-/// time goes on, it is expected to go on as it does, and does not: it turns about its axis to and fro besides.
+/// another, slides over it and goes up again, as a whole or bending, and is looked at between steps too.
+/// Where time goes on, it is expected to go on as it does, and does not: it turns about its axis to and fro
+/// besides.
 void is_the_same_after_many_steps(double time_step) {
   Random random(12);
   const double skin = 0.002, range = 0.004;  // so that lists and what is near are soon used up

@@ -98,9 +98,9 @@ TEST(SpanMotion, BoundsWhatPointsMove) {
   EXPECT_GT(closest, 0.02);
 }
 
-/// Curve-pairs that go anywhere, turning up to a half of a radian, and are somewhat beside their way: no bound
-/// point is farther from the straight way between its two ends. Exactly on their way, no farther than they
-/// stray by turning, by the square of how far they turn.
+/// Curve-pairs that go anywhere, turning up to half a radian, and are a bit beside their way: no bound point
+/// is farther from the straight way between its two ends. Exactly on their way, no farther than they stray by
+/// turning, by the square of how far they turn.
 TEST(SpanMotion, BoundsHowFarPointsAreFromTheirWay) {
   Random random(10);
   const KnotVector knots = KnotVector::uniform(3, 8);

@@ -61,9 +61,9 @@ struct SelfModel;  ///< the surface as vertices, edges and triangles, in patches
 /// where bounds on how far what parts of spans of curve-pairs hold is from its way (by masses nearby, then by
 /// curves, with what frames turn) let them have come within the range.
 ///
-/// Cost: of an evaluation some 0.2 us a curve-pair, some us for each that may have come near another, and what
-/// is near; of a search, every two to sixty steps by how evenly things move, two updates of the mesh and some
-/// 0.1 us a triangle.
+/// Cost: of an evaluation some 0.2 us a curve-pair, some us for each that may have come near another, and
+/// what is near; of a search, every two to sixty steps by how evenly things move, two updates of the mesh and
+/// some 0.1 us a triangle.
 /// Implicit steps and equilibria take differences, by all nodes of the rods that hold what is in the range,
 /// of what is there alone.
 class TENDRIL_CONTACT_API SurfaceSelfContact final : public Force {

@@ -20,8 +20,8 @@ constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, 
 constexpr double kFewestSteps = 3.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
-// A list is made anew where a next step with so many times this one's motion would leave it, or one of so many
-// times this one's length; or one that strays so much more, at most, than all so far.
+// A list is made anew where a next step with so many times this one's motion would leave it, or one of so
+// many times this one's length; or one that strays so much more, at most, than all so far.
 constexpr double kNextStep = 1.5, kNextLength = 1.25, kMostSuddenly = 2.2;
 
 double farthest(Points a, Points b) {

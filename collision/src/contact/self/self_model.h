@@ -48,8 +48,9 @@ struct SelfList {
   /// Per rod: groups with a patch of its, [begin[rod], begin[rod + 1]) of of_rod.
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> of_rod;
-  /// Per span: within which of its way nothing comes near and the list holds; per rod: the least of its spans.
-  std::vector<double> room, rod_room;
+  /// Within which of its way nothing comes near and the list holds.
+  std::vector<double> room;      ///< per span
+  std::vector<double> rod_room;  ///< per rod, the least of its spans
 
   std::span<const std::uint32_t> with(std::size_t rod) const {
     return std::span(of_rod).subspan(begin[rod], begin[rod + 1] - begin[rod]);

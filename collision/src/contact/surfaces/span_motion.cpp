@@ -101,7 +101,7 @@ namespace {
 
 /// c' lies in the hull of its Bezier points and so goes at least as far along their mean as the least of
 /// them does; n likewise along e, the part of its mean across that of c'. Of n' = n - (n . Z) Z along e
-/// that leaves at least min n . e - |n| max |Z . e|. Points that go straight are least, or farthest, at either
+/// that leaves at least min n . e - |n| max |Z . e|. Points that go straight are least, or farthest, at one
 /// end of their way.
 SpanShape shape_of(const UsedSpan& span, const Controls& a, const Controls& b) {
   const std::size_t rates = span.count - 1;

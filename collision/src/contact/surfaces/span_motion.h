@@ -93,8 +93,8 @@ struct SpanWay {
 inline double strays(double bow, double share) {
   return share > 0.0 && share < 1.0 ? 4.0 * share * (1.0 - share) * bow : 0.0;
 }
-/// Off its chord a point is by an eighth of what its second derivatives by the share are at most. Of Z = D / |D|,
-/// D = c', d all that D changes, s the least |D|: Z' = d across Z / |D|, at most a = |d| / s, and
+/// Off its chord a point is by an eighth of what its second derivatives by the share are at most. Of
+/// Z = D / |D|, D = c', d all that D changes, s the least |D|: Z' = d across Z / |D|, at most a = |d| / s;
 ///   Z'' = -|Z'|^2 Z - 2 (Z.d / |D|) Z'.
 /// Of Y = m / |m|, m = n - (n.Z) Z, e all that n changes:
 ///   m'  = e across Z - (n.Z') Z - (n.Z) Z',
