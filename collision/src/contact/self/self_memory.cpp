@@ -15,9 +15,11 @@ namespace {
 // to come out of the range. Where steps are long against patches, all of which such a margin would have near
 // each other, little more than a step.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
-// Ways are so many steps long at most, and grow by this where they were not left. What strayed from the last
-// ones, and as much again in parts, is expected of the next.
-constexpr double kFewestSteps = 3.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kBowOfMargin = 0.5;
+// Ways are so many steps long, and grow by this where they were not left. What strayed from the last ones,
+// and half as much again, is expected of the next, but no more than twice the margin of what stays. Those
+// that turn so much that vertices may stray by half of their margin are shorter.
+constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kWidest = 2.0,
+                 kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
 // A list is made anew where a next step with so many times this one's motion would leave it, or one of so
@@ -192,9 +194,11 @@ class SelfKeeper {
       if (last.stays() || surface_.own_list()) continue;
       const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
       const double parts = ahead_ * step_ / (state_.time - last.from);
-      for (const std::uint32_t span : model_.spans_of[rod])
-        margin[span] = std::clamp(kExpected * motions[span] * parts * parts,
-                                  kMarginOfRange * model_.law.range, margin[span]);
+      for (const std::uint32_t span : model_.spans_of[rod]) {
+        const double least = kMarginOfRange * model_.law.range;
+        const double most = std::max(margin[span], std::min(2.0 * least, kWidest * margin[span]));
+        margin[span] = std::clamp(kExpected * motions[span] * parts * parts, least, most);
+      }
     }
     return margin;
   }
