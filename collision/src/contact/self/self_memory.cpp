@@ -191,7 +191,7 @@ class SelfKeeper {
       const double step = farthest(surface_.masses(rod), before_->p[rod]);
       for (const std::uint32_t span : model_.spans_of[rod])
         margin[span] = std::max(margin[span], margin_for(span, step));
-      if (last.stays() || surface_.own_list()) continue;
+      if (last.stays() || surface_.own_list() || !(step_ > 0.0)) continue;
       const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
       const double parts = ahead_ * step_ / (state_.time - last.from);
       for (const std::uint32_t span : model_.spans_of[rod]) {
