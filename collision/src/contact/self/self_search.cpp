@@ -63,11 +63,12 @@ class SelfSearch {
     std::vector<Box> boxes;  ///< at the ends
   };
   /// How far two are apart all the way, at least, along each axis.
-  static Vec3 gap(std::span<const Box> a, std::span<const Box> b) {
+  /// \param a, b  give the box at an end
+  Vec3 gap(const auto& a, const auto& b) const {
     Vec3 before = Vec3::Constant(kInfinite), behind = before;
-    for (std::size_t end = 0; end < a.size(); ++end) {
-      before = before.cwiseMin(b[end].low - a[end].high);
-      behind = behind.cwiseMin(a[end].low - b[end].high);
+    for (std::size_t end = 0; end < points_.size(); ++end) {
+      before = before.cwiseMin(b(end).low - a(end).high);
+      behind = behind.cwiseMin(a(end).low - b(end).high);
     }
     return before.cwiseMax(behind).cwiseMax(0.0);
   }
@@ -104,7 +105,10 @@ class SelfSearch {
   }
   /// Patches of two parts, where both are.
   void look_between(const Part& a, const Part& b) {
-    if (gap(a.boxes, b.boxes).maxCoeff() > 0.0) return;
+    const auto of = [](const Part& part) {
+      return [&](std::size_t end) -> const Box& { return part.boxes[end]; };
+    };
+    if (gap(of(a), of(b)).maxCoeff() > 0.0) return;
     wide_.meeting(b.boxes, a.begin, a.end, of_first_);
     if (of_first_.empty()) return;
     wide_.meeting(a.boxes, b.begin, b.end, of_second_);
@@ -137,13 +141,10 @@ class SelfSearch {
   }
   void look(std::uint32_t p, std::uint32_t q, Direction& across) {
     const double far = this->far(p, q);
-    std::array<Box, 2> first, second;
-    for (std::size_t end = 0; end < points_.size(); ++end)
-      first[end] = points_[end].box(p), second[end] = points_[end].box(q);
-    const auto boxes = [&](std::array<Box, 2>& of) {
-      return std::span<const Box>(of.data(), points_.size());
+    const auto of = [&](std::uint32_t patch) {
+      return [&, patch](std::size_t end) -> const Box& { return points_[end].box(patch); };
     };
-    if (gap(boxes(first), boxes(second)).squaredNorm() > far * far * (1.0 + 1e-9)) return;
+    if (gap(of(p), of(q)).squaredNorm() > far * far * (1.0 + 1e-9)) return;
     const Parted parted = p == q ? Parted{} : distance(p, q, far, across);
     if (!(parted.least() > far))
       list_.groups.push_back({p, q, parted.at - model_.meets(), parted.after - model_.meets()});
