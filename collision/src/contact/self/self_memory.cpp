@@ -16,8 +16,9 @@ namespace {
 // each other, little more than a step.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
 // Ways are so many steps long, and grow by this where they were not left. What strayed from the last ones,
-// and half as much again, is expected of the next, but no more than twice the margin of what stays. Those
-// that turn so much that vertices may stray by half of their margin are shorter.
+// and half as much again, is expected of the next, but no more than the margin of what stays, or twice that
+// where it is as little as some ranges. Those that turn so much that vertices may stray by half of their
+// margin are shorter.
 constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kWidest = 2.0,
                  kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
@@ -108,6 +109,7 @@ class SelfKeeper {
   void search() {
     auto list = std::make_shared<SelfList>();
     list->from = state_.time;
+    if (before_) ahead_ = steps_ahead();
     list->margin = margins();
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) surface_.curve(rod);
     const std::vector<Vec3> at = model_.place(surface_.pairs());
@@ -185,7 +187,6 @@ class SelfKeeper {
   std::vector<double> margins() {
     std::vector<double> margin(model_.mesh.spans.size(), kMarginOfRange * model_.law.range);
     if (!before_) return margin;
-    ahead_ = steps_ahead();
     const SelfList& last = *before_->list;
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
       const double step = farthest(surface_.masses(rod), before_->p[rod]);
@@ -196,7 +197,7 @@ class SelfKeeper {
       const double parts = ahead_ * step_ / (state_.time - last.from);
       for (const std::uint32_t span : model_.spans_of[rod]) {
         const double least = kMarginOfRange * model_.law.range;
-        const double most = std::max(margin[span], std::min(2.0 * least, kWidest * margin[span]));
+        const double most = std::max(margin[span], std::min(kWidest * least, kWidest * margin[span]));
         margin[span] = std::clamp(kExpected * motions[span] * parts * parts, least, most);
       }
     }
