@@ -151,8 +151,7 @@ void ErrorScale::see(const State& state) {
   double own = 0.0;
   for (std::size_t b = 0; b < body_size_.size(); ++b) {
     const double speed = speed_of(b, state.y);
-    double& most = speeds_[trees_.size() + b].own;
-    most = std::max(most, speed);
+    take(trees_.size() + b, {speed, 0.0});
     own += 0.5 * system_.scene().bodies[b].mass * speed * speed;
   }
   double all = own;
@@ -166,8 +165,7 @@ void ErrorScale::see(const State& state) {
       fastest = std::max(fastest, speed_share_[i] * speed_share_[i] * square);
       kinetic += mass_[i] * square;
     }
-    speeds_[b].own = std::max(speeds_[b].own, std::sqrt(fastest));
-    speeds_[b].common = std::max(speeds_[b].common, common.norm());
+    take(b, {std::sqrt(fastest), common.norm()});
     own += 0.5 * kinetic;
     all += 0.5 * (kinetic + tree_mass_[b] * common.squaredNorm());
   }
@@ -180,33 +178,29 @@ void ErrorScale::see_start(const Eigen::VectorXd& rate) {
   const auto k = 3 * static_cast<Eigen::Index>(body_size_.size());
   for (std::size_t b = 0; b < body_size_.size(); ++b) {
     const double a = rate.segment<3>(rate.size() - 1 - 2 * k + 3 * static_cast<Eigen::Index>(b)).norm();
-    double& own = speeds_[trees_.size() + b].own;
-    own = std::max(own, std::sqrt(a * body_length_[b]));
+    take(trees_.size() + b, {std::sqrt(a * body_length_[b]), 0.0});
   }
   for (std::size_t b = 0; b < trees_.size(); ++b) {
     const Vec3 common = trees_[b].free ? mean(trees_[b], mass_, rate, v) : Vec3(Vec3::Zero());
     double moved = 0.0;
     for (const std::size_t i : trees_[b].nodes) moved += mass_[i] * (of_node(rate, v, i) - common).norm();
-    speeds_[b].own = std::max(speeds_[b].own, std::sqrt(moved / tree_mass_[b] * longest_));
-    speeds_[b].common = std::max(speeds_[b].common, std::sqrt(common.norm() * longest_));
+    take(b, {std::sqrt(moved / tree_mass_[b] * longest_), std::sqrt(common.norm() * longest_)});
   }
 }
 
 void ErrorScale::see(const std::vector<Speed>& speeds) {
-  for (std::size_t b = 0; b < speeds_.size() && b < speeds.size(); ++b) {
-    speeds_[b].own = std::max(speeds_[b].own, speeds[b].own);
-    speeds_[b].common = std::max(speeds_[b].common, speeds[b].common);
-  }
+  for (std::size_t b = 0; b < speeds_.size() && b < speeds.size(); ++b) take(b, speeds[b]);
 }
 
-double ErrorScale::fastest() const {
-  double fastest = 0.0;
-  for (const Speed& speed : speeds_) fastest = std::max({fastest, speed.own, speed.common});
-  return fastest;
+void ErrorScale::take(std::size_t part, const Speed& speed) {
+  Speed& most = speeds_[part];
+  most.own = std::max(most.own, speed.own);
+  most.common = std::max(most.common, speed.common);
+  fastest_ = std::max({fastest_, most.own, most.common});
 }
 
 double ErrorScale::least_speed() const {
-  const double least = std::max(kLeast * fastest(), slowest_);
+  const double least = std::max(kLeast * fastest_, slowest_);
   return least > 0.0 ? least : longest_;
 }
 

@@ -50,7 +50,7 @@ class ErrorScale {
   double most_kinetic() const { return most_kinetic_; }
   double most_own_kinetic() const { return most_own_kinetic_; }
   /// In which the fastest, however it moves, goes the longest rod's length; infinite where nothing moves.
-  double time_of_a_length() const { return longest_ / fastest(); }
+  double time_of_a_length() const { return longest_ / fastest_; }
   double rate() const;  ///< the largest of these, in lengths of the longest rod a time unit
 
  private:
@@ -61,7 +61,8 @@ class ErrorScale {
 
   static constexpr double kLeast = 1e-3;  ///< of the fastest tree's speed, too
 
-  double fastest() const;
+  /// Into the largest so far.
+  void take(std::size_t part, const Speed& speed);
   double least_speed() const;
   double speed_of(std::size_t body, const Eigen::VectorXd& y) const;
   double norm_of_bodies(const Eigen::VectorXd& error) const;
@@ -82,6 +83,7 @@ class ErrorScale {
   std::vector<Flight> flights_;      ///< per tree
   std::vector<Speed> speeds_;        ///< see speeds()
   double longest_ = 0.0, slowest_ = 0.0;
+  double fastest_ = 0.0;  ///< of all speeds: each tree's is held against it, at every step
   double most_kinetic_ = 0.0, most_own_kinetic_ = 0.0;
 };
 
