@@ -91,5 +91,31 @@ TEST(SelfLedger, IsTheSameWhereItExpectsALeafToGoOn) {
   is_the_same_after_many_steps(0.01);
 }
 
+/// A leaf comes straight from afar, so that a list which is made where it is parted from the other has to say
+/// that they meet at its end; and goes on through it and out below, which a barrier would refuse.
+TEST(SelfLedger, IsTheSameWhereALeafComesStraightFromAfar) {
+  Random random(5);
+  const Sheets sheets = test::crossed(0.02);
+  const SurfaceSelfContact contact(sheets.surface(0.002), law_of(Law::Kind::penalty, 0.004, 0.0, 0.0));
+  const int steps = 240;
+  int touched = 0;
+  Shown s = shown_of(sheets.rods, random, 1e-6, 0.2);
+  for (std::size_t i = 9; i < 18; ++i) s.p[i].z() += 0.28;
+  s.memory = contact.remember(s.view(), nullptr);
+  for (int step = 0; step < steps; ++step) {
+    for (std::size_t i = 9; i < 18; ++i) s.p[i].z() -= 0.0025;
+    s.time += 0.01;
+    SCOPED_TRACE("step " + std::to_string(step));
+    const test::Felt felt = test::same_without_memory(contact, s);
+    ASSERT_NE(felt, test::Felt::refusal);
+    if (felt == test::Felt::something) ++touched;
+    s.memory = contact.remember(s.view(), s.memory);
+  }
+  const long searches = dynamic_cast<const SurfaceSelfMemory&>(*s.memory).searches;
+  EXPECT_GE(touched, 3);
+  EXPECT_LT(10 * searches, steps);
+  std::cout << touched << " touched, searches " << searches << "\n";
+}
+
 }  // namespace
 }  // namespace tendril::contact

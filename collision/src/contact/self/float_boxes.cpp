@@ -50,15 +50,15 @@ void FloatBoxes::round(const collision::Box& box, std::size_t end, One& one) {
   }
 }
 
-void FloatBoxes::take(const std::vector<std::vector<collision::Box>>& boxes) {
-  ends_ = boxes.size();
-  for (std::size_t k = 0; k < ends_ * kSides; ++k) side_[k].resize(boxes[0].size());
-  for (std::size_t end = 0; end < ends_; ++end)
-    for (std::size_t i = 0; i < boxes[end].size(); ++i) {
-      One one;
-      round(boxes[end][i], 0, one);
-      for (std::size_t k = 0; k < kSides; ++k) side_[end * kSides + k][i] = one[k];
-    }
+void FloatBoxes::resize(std::size_t count, std::size_t ends) {
+  ends_ = ends;
+  for (std::size_t k = 0; k < ends_ * kSides; ++k) side_[k].resize(count);
+}
+
+void FloatBoxes::take(std::size_t index, std::size_t end, const collision::Box& box) {
+  One one;
+  round(box, 0, one);
+  for (std::size_t k = 0; k < kSides; ++k) side_[end * kSides + k][index] = one[k];
 }
 
 void FloatBoxes::take(const FloatBoxes& from, const std::vector<std::uint32_t>& which) {

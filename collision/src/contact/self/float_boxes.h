@@ -13,8 +13,10 @@ namespace tendril::contact {
 /// at the beginning or the end.
 class FloatBoxes {
  public:
-  /// \param boxes  where they stay; or at the beginning and the end
-  void take(const std::vector<std::vector<collision::Box>>& boxes);
+  /// So many, of which none is known so far.
+  /// \param ends  1 where they stay, 2 where they go
+  void resize(std::size_t count, std::size_t ends);
+  void take(std::size_t index, std::size_t end, const collision::Box& box);
   /// Some of others.
   void take(const FloatBoxes& from, const std::vector<std::uint32_t>& which);
 

@@ -139,7 +139,7 @@ void PosedSelf::search() {
   const std::vector<Vec3> at = model_.place(pairs());
   sound_ = all_finite(at);
   if (!sound_) return;
-  model_.search(at, at, *list);
+  model_.search(at, at, kept_ ? kept_->list.get() : nullptr, *list);
   own_ = std::move(list);
   for (std::uint32_t g = 0; g < own_->groups.size(); ++g) awake_.push_back(g);
 }

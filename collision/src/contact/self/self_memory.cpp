@@ -115,7 +115,7 @@ class SelfKeeper {
     const std::vector<Vec3> at = model_.place(surface_.pairs());
     std::vector<Vec3> after;
     if (!set_out(*list, after)) stay(*list);
-    model_.search(at, list->stays() ? at : after, *list);
+    model_.search(at, list->stays() ? at : after, before_ ? before_->list.get() : nullptr, *list);
     find_rooms(*list);
     for (std::uint32_t g = 0; g < list->groups.size(); ++g)
       if (!(list->groups[g].slack > 0.0)) ledger_->awake.push_back(g);

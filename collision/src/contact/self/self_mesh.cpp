@@ -143,16 +143,29 @@ void SelfMesh::find_patches(const ContactSurface& surface) {
 }
 
 void SelfMesh::line_up(const ContactSurface& surface) {
-  for (const SelfPatch& patch : patches) {
-    padded_begin.push_back(static_cast<std::uint32_t>(padded.size()));
-    padded.insert(padded.end(), patch.corners.begin(), patch.corners.end());
-    while (padded.size() % kLane != 0) padded.push_back(patch.corners.back());
+  std::vector<std::uint32_t> of_part;
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    const SelfPatch& patch = patches[p];
+    if (p == 0 || patch.part != patches[p - 1].part) part_begin.push_back(p);
+    of_part.insert(of_part.end(), patch.corners.begin(), patch.corners.end());
+    if (p + 1 == patches.size() || patch.part != patches[p + 1].part) {
+      std::sort(of_part.begin(), of_part.end());
+      of_part.erase(std::unique(of_part.begin(), of_part.end()), of_part.end());
+      corners_of_parts.add(std::exchange(of_part, {}));
+    }
+    corners_of_patches.add(patch.corners);
     spans_begin.push_back(static_cast<std::uint32_t>(spans_of.size()));
     spans_of.insert(spans_of.end(), patch.spans.begin(), patch.spans.end());
     amidst.push_back(surface.triangles[patch.faces[patch.faces.size() / 2]]);
   }
   spans_begin.push_back(static_cast<std::uint32_t>(spans_of.size()));
-  padded_begin.push_back(static_cast<std::uint32_t>(padded.size()));
+  part_begin.push_back(static_cast<std::uint32_t>(patches.size()));
+}
+
+void VertexSets::add(const std::vector<std::uint32_t>& set) {
+  vertices.insert(vertices.end(), set.begin(), set.end());
+  while (vertices.size() % kLane != 0) vertices.push_back(set.back());
+  begin.push_back(static_cast<std::uint32_t>(vertices.size()));
 }
 
 }  // namespace tendril::contact

@@ -26,6 +26,17 @@ struct SelfPatch {
   std::uint32_t part = 0;
 };
 
+/// Vertices of several sets one after the other, those of set i from begin[i] on; each set's last is repeated
+/// until it has a multiple of kLane.
+struct VertexSets {
+  static constexpr std::size_t kLane = 8;
+  std::vector<std::uint32_t> vertices, begin{0};
+
+  /// \param set  not empty
+  void add(const std::vector<std::uint32_t>& set);
+  std::size_t size() const { return begin.size() - 1; }
+};
+
 /// A surface as it rests, as something that meets itself.
 struct SelfMesh {
   /// \param surface  checked
@@ -34,11 +45,11 @@ struct SelfMesh {
   std::vector<UsedSpan> spans;
   std::vector<std::vector<std::uint32_t>> bound_to;  ///< per span: vertices with a share in it
   std::vector<SelfPatch> patches;
-  /// Corners of all patches one after the other, those of p from padded_begin[p] on, each patch's last
-  /// repeated until it has a multiple of kLane.
-  std::vector<std::uint32_t> padded, padded_begin;
-  static constexpr std::size_t kLane = 4;
-  /// The spans of all patches likewise, not padded; and per patch, the corners of a face in its midst.
+  /// Patches of a part follow each other: those of the i-th from part_begin[i] on.
+  std::vector<std::uint32_t> part_begin;
+  VertexSets corners_of_patches, corners_of_parts;
+  /// The spans of all patches one after the other, those of p from spans_begin[p] on; and per patch, the
+  /// corners of a face in its midst.
   std::vector<std::uint32_t> spans_of, spans_begin;
   std::vector<std::array<std::uint32_t, 3>> amidst;
   std::vector<SelfEdge> edges;

@@ -1,6 +1,7 @@
 #include "self_model.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "contact/surfaces/surface_points.h"
@@ -8,7 +9,12 @@
 namespace tendril::contact {
 
 SelfModel::SelfModel(ContactSurface of, const Law& how, Meets what)
-    : surface(checked(std::move(of))), law(checked(how)), which(what), mesh(surface) {
+    : surface(checked(std::move(of))),
+      law(checked(how)),
+      which(what),
+      mesh(surface),
+      all_(surface.rest.size()) {
+  std::iota(all_.begin(), all_.end(), 0U);
   spans_of.resize(rods());
   patches_of.resize(rods());
   rod_gain.resize(rods(), {0.0, 0.0});
@@ -80,6 +86,7 @@ CurvePair SelfModel::curve(std::size_t rod, Points p, Points arm) const {
 RodWay SelfModel::way(std::size_t rod, const CurvePair& from, const CurvePair& to, RodWay way) const {
   way.worst = {kInfinite, kInfinite, 0.0};
   way.bow = 0.0;
+  way.spans.reserve(spans_of[rod].size());
   for (const std::uint32_t i : spans_of[rod]) {
     way.spans.push_back(way_of(mesh.spans[i], from, to));
     const SpanShape& shape = way.spans.back().shape;
@@ -177,10 +184,8 @@ double SelfModel::far_at_most(std::size_t span, const RodWay& way, double share,
 }
 
 std::vector<Vec3> SelfModel::place(std::span<const CurvePair> pairs) const {
-  std::vector<std::uint32_t> all(surface.rest.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  std::vector<Vec3> result(all.size());
-  points().points().place(pairs, all, result);
+  std::vector<Vec3> result(all_.size());
+  points().points().place(pairs, all_, result);
   return result;
 }
 

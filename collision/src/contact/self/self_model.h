@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "contact/response.h"
-#include "self_mesh.h"
+#include "posed_sets.h"
 
 namespace tendril::contact {
 
@@ -35,6 +35,13 @@ struct SelfGroup {
   double slack_at(double share) const { return (1.0 - share) * slack + share * slack_after; }
 };
 
+/// Two parts of the surface, by their place in SelfMesh::part_begin, whose boxes meet.
+struct PartedParts {
+  std::uint32_t a, b;
+  Direction across;  ///< 0 where no plane was found that parts them
+  int wait;          ///< so many lists are made until one is sought again
+};
+
 /// All pairs of patches that may come near each other from one time to another, while what each span holds
 /// strays from its way by no more than its margin.
 ///
@@ -45,6 +52,7 @@ struct SelfList {
   std::vector<RodWay> ways;           ///< per rod; none where the list is for one state
   std::vector<double> margin;         ///< per span
   std::vector<SelfGroup> groups;
+  std::vector<PartedParts> parts;  ///< ascending
   /// Per rod: groups with a patch of its, [begin[rod], begin[rod + 1]) of of_rod.
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> of_rod;
@@ -137,7 +145,9 @@ struct SelfModel {
   /// Fills in the groups of a list: pairs of patches nearer, somewhere on their way, than where response
   /// begins and both margins.
   /// \param at, after  all vertices at the beginning and the end; the same where they stay
-  void search(std::span<const Vec3> at, std::span<const Vec3> after, SelfList& list) const;
+  /// \param before  a list to take planes from that part what they parted; null where there is none
+  void search(std::span<const Vec3> at, std::span<const Vec3> after, const SelfList* before,
+              SelfList& list) const;
   /// What of two patches is within `far` of each other.
   SelfPairs pairs(const SelfGroup& group, const PlacedVertices& at, double far) const;
   double distance(const SelfPair& vertex_and_face, const PlacedVertices& at) const;
@@ -151,6 +161,8 @@ struct SelfModel {
 
  private:
   double far_at_most(std::size_t span, const RodWay& way, double share, const CurvePair& now) const;
+
+  std::vector<std::uint32_t> all_;  ///< vertices
 
   mutable std::mutex lock_;  ///< of what follows: a force is evaluated by several threads
   mutable std::vector<std::unique_ptr<SelfScratch>> scratch_;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "float_boxes.h"
-#include "patch_points.h"
+#include "posed_sets.h"
 #include "self_model.h"
 
 namespace tendril::contact {
@@ -13,39 +13,49 @@ namespace {
 
 using collision::Box;
 
-/// So often a direction is mended in which two patches are apart.
-constexpr int kRounds = 8;
-constexpr double kCloseEnough = 1.02;
+/// So often a direction is mended in which two patches are apart, or two parts; these are left for some lists
+/// where that did not do.
+constexpr int kRounds = 8, kPartRounds = 4, kPartWait = 8;
+constexpr double kCloseEnough = 1.1;
 
 Box widened(Box box, double by) {
   return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};
 }
 
-/// Fills a list: parts by their boxes, patches of two parts by theirs, then by what is about their corners.
+/// Fills a list: parts by their boxes, then by planes, patches of two parts likewise.
 /// What goes straight from one end of its way to another is apart all the way from what it is apart from at
 /// both ends, on the same side.
 class SelfSearch {
  public:
-  SelfSearch(const SelfModel& model, std::span<const Vec3> at, std::span<const Vec3> after, SelfList& list)
-      : model_(model), mesh_(model.mesh), at_(at), after_(after), list_(list) {
-    points_.emplace_back(mesh_, at);
-    if (at.data() != after.data()) points_.emplace_back(mesh_, after);
+  /// \param before  a list of before; null where there is none
+  SelfSearch(const SelfModel& model, std::span<const Vec3> at, std::span<const Vec3> after,
+             const SelfList* before, SelfList& list)
+      : model_(model),
+        mesh_(model.mesh),
+        at_(at),
+        after_(after),
+        both_{at, after},
+        ends_(both_.data(), at.data() == after.data() ? 1 : 2),
+        before_(before),
+        list_(list),
+        parts_(mesh_.corners_of_parts, ends_),
+        patches_(mesh_.corners_of_patches, ends_),
+        open_(mesh_.corners_of_parts.size(), 0) {
+    parts_.take(0, open_.size());
+    wide_.resize(mesh_.patches.size(), ends_.size());
+    normal_.resize(mesh_.patches.size());
   }
 
   void run() {
     for (std::uint32_t p = 0; p < mesh_.patches.size(); ++p)
       margin_.push_back(model_.of_patch(p, list_.margin));
-    std::vector<std::vector<Box>> wide;
-    for (const PatchPoints& points : points_) {
-      wide.emplace_back();
-      for (std::uint32_t p = 0; p < margin_.size(); ++p)
-        wide.back().push_back(widened(points.box(p), 0.5 * model_.meets() + margin_[p]));
-    }
-    const std::vector<Part> parts = parts_of(wide);
-    wide_.take(wide);
+    for (std::size_t part = 0; part < open_.size(); ++part)
+      of_part_.push_back(*std::max_element(margin_.begin() + mesh_.part_begin[part],
+                                           margin_.begin() + mesh_.part_begin[part + 1]));
     // In an order of their own, not of the trees: sums over groups are the same whatever the boxes were.
-    for (const auto& [a, b] : meeting_parts(parts)) look_between(parts[a], parts[b]);
-    if (model_.which == Meets::all) look_within_parts(wide);
+    for (const auto& [a, b] : meeting_parts())
+      if (!parted(a, b)) look_between(a, b);
+    if (model_.which == Meets::all) look_within_parts();
     sort_by_rod();
   }
 
@@ -57,44 +67,41 @@ class SelfSearch {
     Mat3 turned;  ///< zero where a face has no area
   };
 
-  /// What is connected: patches [begin, end), which follow each other.
-  struct Part {
-    std::uint32_t begin, end;
-    std::vector<Box> boxes;  ///< at the ends
-  };
+  /// Patches of a part that is looked into.
+  void open(std::uint32_t part) {
+    if (std::exchange(open_[part], 1)) return;
+    const std::uint32_t first = mesh_.part_begin[part], last = mesh_.part_begin[part + 1];
+    patches_.take(first, last);
+    for (std::uint32_t p = first; p < last; ++p) {
+      normal_[p] = normal(p);
+      for (std::size_t end = 0; end < ends_.size(); ++end)
+        wide_.take(p, end, widened(patches_.box(p, end), 0.5 * model_.meets() + margin_[p]));
+    }
+  }
+  /// Where a part is, and what may come near it.
+  std::vector<Box> around(std::uint32_t part) const {
+    std::vector<Box> boxes;
+    for (std::size_t end = 0; end < ends_.size(); ++end)
+      boxes.push_back(widened(parts_.box(part, end), 0.5 * model_.meets() + of_part_[part]));
+    return boxes;
+  }
   /// How far two are apart all the way, at least, along each axis.
   /// \param a, b  give the box at an end
   Vec3 gap(const auto& a, const auto& b) const {
     Vec3 before = Vec3::Constant(kInfinite), behind = before;
-    for (std::size_t end = 0; end < points_.size(); ++end) {
+    for (std::size_t end = 0; end < ends_.size(); ++end) {
       before = before.cwiseMin(b(end).low - a(end).high);
       behind = behind.cwiseMin(a(end).low - b(end).high);
     }
     return before.cwiseMax(behind).cwiseMax(0.0);
   }
-  static Box all_the_way(const std::vector<Box>& boxes) {
-    return collision::join(boxes.front(), boxes.back());
-  }
-
-  std::vector<Part> parts_of(const std::vector<std::vector<Box>>& wide) const {
-    std::vector<Part> parts;
-    for (std::uint32_t p = 0; p < margin_.size(); ++p) {
-      const bool first = p == 0 || mesh_.patches[p].part != mesh_.patches[p - 1].part;
-      if (first) parts.push_back({p, p, {}});
-      Part& part = parts.back();
-      part.end = p + 1;
-      for (std::size_t end = 0; end < wide.size(); ++end)
-        if (first)
-          part.boxes.push_back(wide[end][p]);
-        else
-          part.boxes[end] = collision::join(part.boxes[end], wide[end][p]);
-    }
-    return parts;
-  }
   using Indices = std::pair<std::uint32_t, std::uint32_t>;
-  static std::vector<Indices> meeting_parts(const std::vector<Part>& parts) {
+  std::vector<Indices> meeting_parts() const {
     std::vector<Box> boxes;
-    for (const Part& part : parts) boxes.push_back(all_the_way(part.boxes));
+    for (std::uint32_t part = 0; part < open_.size(); ++part) {
+      const std::vector<Box> wide = around(part);
+      boxes.push_back(collision::join(wide.front(), wide.back()));
+    }
     const collision::BoxTree tree(boxes);
     std::vector<Indices> pairs;
     tree.pairs(tree, [&](std::size_t a, std::size_t b) {
@@ -103,15 +110,48 @@ class SelfSearch {
     std::sort(pairs.begin(), pairs.end());
     return pairs;
   }
+  /// What the last list knows of two parts.
+  PartedParts known(std::uint32_t a, std::uint32_t b) const {
+    if (before_) {
+      const std::vector<PartedParts>& all = before_->parts;
+      const auto at =
+          std::lower_bound(all.begin(), all.end(), Indices(a, b),
+                           [](const PartedParts& x, const Indices& key) { return Indices(x.a, x.b) < key; });
+      if (at != all.end() && at->a == a && at->b == b) return *at;
+    }
+    return {a, b, {}, 0};
+  }
+  /// Whether a plane parts two parts: nearly always one that did before. Where none did, it is some lists
+  /// until one is sought again.
+  bool parted(std::uint32_t a, std::uint32_t b) {
+    PartedParts now = known(a, b);
+    bool apart = false;
+    if (now.wait > 0) {
+      --now.wait;
+    } else {
+      const double far = model_.meets() + of_part_[a] + of_part_[b];
+      const auto midst = [&](std::uint32_t part) {
+        return (mesh_.part_begin[part] + mesh_.part_begin[part + 1]) / 2;
+      };
+      const auto normals = [&] { return std::array{normal(midst(a)), normal(midst(b))}; };
+      apart = distance(parts_, a, b, normals, kPartRounds, far, now.across).least() > far;
+      if (!apart) now = {a, b, {}, kPartWait};
+    }
+    list_.parts.push_back(now);
+    return apart;
+  }
   /// Patches of two parts, where both are.
-  void look_between(const Part& a, const Part& b) {
-    const auto of = [](const Part& part) {
-      return [&](std::size_t end) -> const Box& { return part.boxes[end]; };
+  void look_between(std::uint32_t a, std::uint32_t b) {
+    const std::vector<Box> around_a = around(a), around_b = around(b);
+    const auto of = [](const std::vector<Box>& boxes) {
+      return [&](std::size_t end) -> const Box& { return boxes[end]; };
     };
-    if (gap(of(a), of(b)).maxCoeff() > 0.0) return;
-    wide_.meeting(b.boxes, a.begin, a.end, of_first_);
+    if (gap(of(around_a), of(around_b)).maxCoeff() > 0.0) return;
+    open(a);
+    open(b);
+    wide_.meeting(around_b, mesh_.part_begin[a], mesh_.part_begin[a + 1], of_first_);
     if (of_first_.empty()) return;
-    wide_.meeting(a.boxes, b.begin, b.end, of_second_);
+    wide_.meeting(around_a, mesh_.part_begin[b], mesh_.part_begin[b + 1], of_second_);
     some_.take(wide_, of_second_);
     // What parts two patches parts their neighbours as well, nearly always.
     Direction across{};
@@ -120,14 +160,16 @@ class SelfSearch {
       for (const std::uint32_t k : near_) look(p, of_second_[k], across);
     }
   }
-  void look_within_parts(const std::vector<std::vector<Box>>& wide) {
+  void look_within_parts() {
+    for (std::uint32_t part = 0; part < open_.size(); ++part) open(part);
     for (const std::span<const Vec3> at : {at_, after_}) {
       rest_.emplace_back();
       for (const SelfPatch& patch : mesh_.patches) rest_.back().push_back(resting(patch, at));
     }
     std::vector<Box> boxes;
-    for (std::size_t p = 0; p < margin_.size(); ++p)
-      boxes.push_back(collision::join(wide.front()[p], wide.back()[p]));
+    for (std::uint32_t p = 0; p < margin_.size(); ++p)
+      boxes.push_back(widened(collision::join(patches_.box(p, 0), patches_.box(p, ends_.size() - 1)),
+                              0.5 * model_.meets() + margin_[p]));
     std::vector<Indices> near;
     const collision::BoxTree tree(boxes);
     tree.pairs(tree, [&](std::size_t a, std::size_t b) {
@@ -142,10 +184,11 @@ class SelfSearch {
   void look(std::uint32_t p, std::uint32_t q, Direction& across) {
     const double far = this->far(p, q);
     const auto of = [&](std::uint32_t patch) {
-      return [&, patch](std::size_t end) -> const Box& { return points_[end].box(patch); };
+      return [&, patch](std::size_t end) -> const Box& { return patches_.box(patch, end); };
     };
     if (gap(of(p), of(q)).squaredNorm() > far * far * (1.0 + 1e-9)) return;
-    const Parted parted = p == q ? Parted{} : distance(p, q, far, across);
+    const auto normals = [&] { return std::array{normal_[p], normal_[q]}; };
+    const Parted parted = p == q ? Parted{} : distance(patches_, p, q, normals, kRounds, far, across);
     if (!(parted.least() > far))
       list_.groups.push_back({p, q, parted.at - model_.meets(), parted.after - model_.meets()});
   }
@@ -222,46 +265,38 @@ class SelfSearch {
     return side(b).cross(side(c)).stableNormalized();
   }
 
-  /// How far a plane parts two patches at the beginning and the end of their ways.
+  /// How far a plane parts two sets at the beginning and the end of their ways.
   struct Parted {
     double at = 0.0, after = 0.0;
     double least() const { return std::min(at, after); }
   };
-  /// A lower bound on the distance of two patches: by how much a plane across some direction parts them.
-  /// Patches that have a place in common have none by their corners. Tried are a direction that is given,
+  /// A lower bound on the distance of two sets: by how much a plane across some direction parts them.
+  /// Sets that have a place in common have none by their corners. Tried are a direction that is given,
   /// and their normals, as boxes about what is flat and aslant hold much besides; then the direction
   /// from the point of the hull of all differences that is known to be nearest to 0, which moves towards
   /// each round's support point [Gilbert 1966].
   /// \param enough  more need not be known
   /// \param across  0, or one to try first; that of the best
-  Parted distance(std::uint32_t p, std::uint32_t q, double enough, Direction& across) const {
-    const auto parts_far = [&](const PatchPoints& points) { return points.apart(p, q, across) > enough; };
-    if (across != Direction{} && std::all_of(points_.begin(), points_.end(), parts_far))
-      return {kInfinite, kInfinite};
+  Parted distance(const PosedSets& sets, std::uint32_t p, std::uint32_t q, auto&& normals, int rounds,
+                  double enough, Direction& across) const {
+    if (across != Direction{} && sets.part(p, q, across, enough)) return {kInfinite, kInfinite};
     Parted best;
-    Vec3 between = points_.front().middle(p) - points_.front().middle(q) + points_.back().middle(p) -
-                   points_.back().middle(q);
     const auto look = [&](const Vec3& n) {
       const Direction direction{static_cast<float>(n.x()), static_cast<float>(n.y()),
                                 static_cast<float>(n.z())};
-      const PatchPoints::Along here = points_.front().along(p, q, direction);
-      if (points_.size() == 1) {
-        if (here.apart > best.least()) best = {here.apart, here.apart}, across = direction;
-        return Vec3(at_[here.of_p] - at_[here.of_q]);
-      }
-      const PatchPoints::Along there = points_.back().along(p, q, direction);
+      const PosedSets::Along here = sets.along(p, q, direction, 0);
+      const PosedSets::Along there = ends_.size() == 1 ? here : sets.along(p, q, direction, 1);
       const Parted now{here.apart, there.apart};
       if (now.least() > best.least()) best = now, across = direction;
-      return Vec3(now.at < now.after ? at_[here.of_p] - at_[here.of_q]
-                                     : after_[there.of_p] - after_[there.of_q]);
+      return now.at < now.after ? here.way : there.way;
     };
-    for (const std::uint32_t patch : {p, q}) {
-      const Vec3 n = normal(patch);
+    Vec3 between = sets.middle(p) - sets.middle(q);
+    for (const Vec3& n : normals()) {
       look(n.dot(between) < 0.0 ? Vec3(-n) : n);
       if (best.least() > enough) return best;
     }
     between = look(between.stableNormalized());
-    for (int round = 0; round < kRounds && best.least() <= enough; ++round) {
+    for (int round = 0; round < rounds && best.least() <= enough; ++round) {
       const double length = between.norm();
       if (!(length > best.least() * kCloseEnough)) break;
       const Vec3 way = look(between / length) - between;
@@ -288,9 +323,15 @@ class SelfSearch {
   const SelfModel& model_;
   const SelfMesh& mesh_;
   std::span<const Vec3> at_, after_;
+  std::array<std::span<const Vec3>, 2> both_;
+  std::span<const std::span<const Vec3>> ends_;  ///< one where they stay
+  const SelfList* before_;
   SelfList& list_;
-  std::vector<PatchPoints> points_;  ///< at both ends, where they are two
-  std::vector<double> margin_;       ///< per patch
+  PosedSets parts_, patches_;
+  std::vector<char> open_;       ///< per part: its patches are known
+  std::vector<Vec3> normal_;     ///< of patches
+  std::vector<double> margin_;   ///< per patch
+  std::vector<double> of_part_;  ///< per part, the largest
   std::vector<std::vector<Resting>> rest_;
   FloatBoxes wide_;  ///< of all patches, with their margins
   // Of the pair of parts that is looked at: patches where both are, and boxes of the second's.
@@ -300,8 +341,9 @@ class SelfSearch {
 
 }  // namespace
 
-void SelfModel::search(std::span<const Vec3> at, std::span<const Vec3> after, SelfList& list) const {
-  SelfSearch(*this, at, after, list).run();
+void SelfModel::search(std::span<const Vec3> at, std::span<const Vec3> after, const SelfList* before,
+                       SelfList& list) const {
+  SelfSearch(*this, at, after, before, list).run();
 }
 
 }  // namespace tendril::contact
