@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "contact/self/posed_sets.h"
 #include "contact/surfaces/span_motion.h"
 #include "leaf.h"
 
@@ -198,6 +199,76 @@ TEST(SpanMotion, BoundsWhatRodsMove) {
   std::cout << "a point moved " << closest << " of the bound by masses, " << carried << " of the other\n";
   EXPECT_GT(closest, 0.05);
   EXPECT_GT(carried, 0.2);
+}
+
+/// What sets have between them along a direction, by all their vertices in double precision.
+double apart(const VertexSets& sets, const std::vector<Vec3>& at, std::size_t p, std::size_t q,
+             const Direction& n) {
+  const auto least = [&](std::size_t set, double sign) {
+    double most = std::numeric_limits<double>::infinity();
+    for (std::size_t i = sets.begin[set]; i < sets.begin[set + 1]; ++i) {
+      const Vec3& x = at[sets.vertices[i]];
+      most = std::min(most, sign * (static_cast<double>(n[0]) * x.x() + static_cast<double>(n[1]) * x.y() +
+                                    static_cast<double>(n[2]) * x.z()));
+    }
+    return most;
+  };
+  return least(p, 1.0) + least(q, -1.0);
+}
+
+/// Single precision says less than double does, but not much less: of a set's size, wherever both are.
+TEST(PosedSets, AreNoFartherApartThanTheirVertices) {
+  Random random(8);
+  VertexSets sets;
+  for (std::uint32_t set = 0, first = 0; set < 6; ++set) {
+    std::vector<std::uint32_t> of(1 + 9 * set);
+    for (std::uint32_t& v : of) v = first++;
+    sets.add(of);
+  }
+  double most = 0.0;
+  for (int round = 0; round < 200; ++round) {
+    const Vec3 where = random.in_cube(round % 2 == 0 ? 1.0 : 1e3);
+    std::vector<Vec3> at, after;
+    for (std::size_t i = 0; i < sets.vertices.back() + 1; ++i) {
+      at.push_back(where + random.in_cube());
+      after.push_back(at.back() + random.in_cube(0.1));
+    }
+    const std::array<std::span<const Vec3>, 2> ends{at, after};
+    PosedSets posed(sets, ends);
+    posed.take(0, sets.size());
+    const Vec3 way = random.in_cube().normalized();
+    const Direction n{static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z())};
+    for (std::size_t p = 0; p < sets.size(); ++p)
+      for (std::size_t q = 0; q < sets.size(); ++q) {
+        const std::array<double, 2> truly{apart(sets, at, p, q, n), apart(sets, after, p, q, n)};
+        for (std::size_t end = 0; end < 2; ++end) {
+          const PosedSets::Along said = posed.along(p, q, n, end);
+          EXPECT_LE(said.apart, truly[end]);
+          most = std::max(most, truly[end] - said.apart);
+          EXPECT_NEAR(said.way.dot(way), truly[end], 1e-5);
+        }
+        const double least = std::min(truly[0], truly[1]);
+        EXPECT_FALSE(posed.part(p, q, n, least));
+        EXPECT_TRUE(posed.part(p, q, n, least - 1e-4));
+      }
+  }
+  EXPECT_LT(most, 5e-5);
+  std::cout << "at most " << most << " too little, of sets of size 3\n";
+}
+
+TEST(PosedSets, ArePartedByNothingWhereSinglePrecisionEnds) {
+  VertexSets sets;
+  sets.add({0, 1});
+  sets.add({2, 3});
+  for (const double size : {1e20, 1e36, 1e60, 1e140}) {
+    const std::vector<Vec3> at{Vec3::Zero(), Vec3(size, 0, 0), Vec3(0, 0, -size), Vec3(size, 0, -size)};
+    const std::array<std::span<const Vec3>, 1> ends{at};
+    PosedSets posed(sets, ends);
+    posed.take(0, 2);
+    const Direction up{0.0F, 0.0F, 1.0F};
+    EXPECT_EQ(posed.part(0, 1, up, 0.5 * size), size < 1e30);
+    EXPECT_EQ(posed.along(0, 1, up, 0).apart > 0.0, size < 1e30);
+  }
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include "posed_sets.h"
 
+#include <limits>
+
 namespace tendril::contact {
 namespace {
 
 // Of a set's diagonal: what single precision leaves open of a vertex' reach, some ten roundings, and of a
 // direction's length.
 constexpr double kOpen = 2e-6;
+// Larger ones might overflow there: they are apart from nothing.
+constexpr double kMost = 1e30;
 
 Direction back(const Direction& n) {
   return {-n[0], -n[1], -n[2]};
@@ -47,6 +51,7 @@ PosedSets::PosedSets(const VertexSets& sets, std::span<const std::span<const Vec
       blocks_(std::make_unique_for_overwrite<Block[]>(sets.vertices.size() / kLane * ends.size())) {}
 
 void PosedSets::take(std::size_t begin, std::size_t end) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   for (std::size_t set = begin; set < end; ++set) {
     const std::uint32_t* vertex = &sets_.vertices[sets_.begin[set]];
     const std::size_t count = blocks(set);
@@ -65,7 +70,8 @@ void PosedSets::take(std::size_t begin, std::size_t end) {
           to->y[lane] = static_cast<float>(here.y() - first.y());
           to->z[lane] = static_cast<float>(here.z() - first.z());
         }
-      about_[set * ends() + which] = {{low, high}, first, (high - low).norm()};
+      const double size = (high - low).norm();
+      about_[set * ends() + which] = {{low, high}, first, size < kMost ? size : infinite};
     }
   }
 }

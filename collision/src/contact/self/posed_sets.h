@@ -47,7 +47,7 @@ class PosedSets {
   struct About {
     collision::Box box;
     Vec3 first;
-    double size;  ///< the box' diagonal
+    double size;  ///< the box' diagonal; infinite where single precision might overflow
   };
   struct Nearest {
     float reach;
