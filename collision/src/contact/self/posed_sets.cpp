@@ -9,7 +9,7 @@ namespace {
 // direction's length.
 constexpr double kOpen = 2e-6;
 // Larger ones might overflow there: they are apart from nothing.
-constexpr double kMost = 1e30;
+constexpr double kMostSize = 1e30;
 
 Direction back(const Direction& n) {
   return {-n[0], -n[1], -n[2]};
@@ -71,7 +71,7 @@ void PosedSets::take(std::size_t begin, std::size_t end) {
           to->z[lane] = static_cast<float>(here.z() - first.z());
         }
       const double size = (high - low).norm();
-      about_[set * ends() + which] = {{low, high}, first, size < kMost ? size : infinite};
+      about_[set * ends() + which] = {{low, high}, first, size < kMostSize ? size : infinite};
     }
   }
 }
