@@ -260,9 +260,10 @@ class SelfSearch {
 
   /// Halfway.
   Vec3 normal(std::uint32_t patch) const {
-    const auto& [a, b, c] = mesh_.amidst[patch];
-    const auto side = [&](std::uint32_t to) { return Vec3(at_[to] - at_[a] + after_[to] - after_[a]); };
-    return side(b).cross(side(c)).stableNormalized();
+    const std::array<std::uint32_t, 3>& corner = mesh_.amidst[patch];
+    const auto twice = [&](std::size_t i) { return Vec3(at_[corner[i]] + after_[corner[i]]); };
+    const Vec3 from = twice(0);
+    return (twice(1) - from).cross(twice(2) - from).stableNormalized();
   }
 
   /// How far a plane parts two sets at the beginning and the end of their ways.
