@@ -233,8 +233,7 @@ TEST(PosedSets, AreNoFartherApartThanTheirVertices) {
       at.push_back(where + random.in_cube());
       after.push_back(at.back() + random.in_cube(0.1));
     }
-    const std::array<std::span<const Vec3>, 2> ends{at, after};
-    PosedSets posed(sets, ends);
+    PosedSets posed(sets, at, after);
     posed.take(0, sets.size());
     const Vec3 way = random.in_cube().normalized();
     const Direction n{static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z())};
@@ -262,8 +261,7 @@ TEST(PosedSets, ArePartedByNothingWhereSinglePrecisionEnds) {
   sets.add({2, 3});
   for (const double size : {1e20, 1e36, 1e60, 1e140}) {
     const std::vector<Vec3> at{Vec3::Zero(), Vec3(size, 0, 0), Vec3(0, 0, -size), Vec3(size, 0, -size)};
-    const std::array<std::span<const Vec3>, 1> ends{at};
-    PosedSets posed(sets, ends);
+    PosedSets posed(sets, at, at);
     posed.take(0, 2);
     const Direction up{0.0F, 0.0F, 1.0F};
     EXPECT_EQ(posed.part(0, 1, up, 0.5 * size), size < 1e30);

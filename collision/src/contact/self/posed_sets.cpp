@@ -44,11 +44,12 @@ PosedSets::Nearest PosedSets::nearest(std::size_t set, std::size_t end, const Di
   return {least, sets_.vertices[sets_.begin[set] + where * kLane + static_cast<std::size_t>(k)]};
 }
 
-PosedSets::PosedSets(const VertexSets& sets, std::span<const std::span<const Vec3>> ends)
+PosedSets::PosedSets(const VertexSets& sets, std::span<const Vec3> at, std::span<const Vec3> after)
     : sets_(sets),
-      ends_(ends),
-      about_(sets.size() * ends.size()),
-      blocks_(std::make_unique_for_overwrite<Block[]>(sets.vertices.size() / kLane * ends.size())) {}
+      at_{at, after},
+      ends_(at.data() == after.data() ? 1 : 2),
+      about_(sets.size() * ends_),
+      blocks_(std::make_unique_for_overwrite<Block[]>(sets.vertices.size() / kLane * ends_)) {}
 
 void PosedSets::take(std::size_t begin, std::size_t end) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -57,7 +58,7 @@ void PosedSets::take(std::size_t begin, std::size_t end) {
     const std::size_t count = blocks(set);
     Block* to = &blocks_[sets_.begin[set] / kLane * ends()];
     for (std::size_t which = 0; which < ends(); ++which) {
-      const Vec3* at = ends_[which].data();
+      const Vec3* at = at_[which].data();
       const Vec3 first = at[vertex[0]];
       Vec3 low = first, high = first;
       for (std::size_t i = 0; i < count; ++i, ++to)
@@ -98,7 +99,7 @@ bool PosedSets::part(std::size_t p, std::size_t q, const Direction& n, double fa
 PosedSets::Along PosedSets::along(std::size_t p, std::size_t q, const Direction& n, std::size_t end) const {
   const Nearest low = nearest(p, end, n), high = nearest(q, end, back(n));
   const double both = static_cast<double>(low.reach) + static_cast<double>(high.reach);
-  return {apart(about(p, end), about(q, end), n, both), ends_[end][low.vertex] - ends_[end][high.vertex]};
+  return {apart(about(p, end), about(q, end), n, both), at_[end][low.vertex] - at_[end][high.vertex]};
 }
 
 }  // namespace tendril::contact

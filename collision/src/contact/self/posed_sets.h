@@ -19,12 +19,14 @@ class PosedSets {
  public:
   /// Of no set so far.
   /// \param sets  kept by reference
-  /// \param ends  where all vertices are, at one or two of them; kept by reference
-  PosedSets(const VertexSets& sets, std::span<const std::span<const Vec3>> ends);
+  /// \param at, after  where all vertices are at the beginning and the end, kept by reference; the same where
+  /// they stay
+  PosedSets(const VertexSets& sets, std::span<const Vec3> at, std::span<const Vec3> after);
   /// Sets [begin, end).
   void take(std::size_t begin, std::size_t end);
 
-  std::size_t ends() const { return ends_.size(); }
+  /// 1 where they stay, 2 where they go.
+  std::size_t ends() const { return ends_; }
   const collision::Box& box(std::size_t set, std::size_t end) const { return about(set, end).box; }
   /// Of the boxes.
   Vec3 middle(std::size_t set) const;
@@ -67,7 +69,8 @@ class PosedSets {
   double apart(const About& p, const About& q, const Direction& n, double both) const;
 
   const VertexSets& sets_;
-  std::span<const std::span<const Vec3>> ends_;
+  std::array<std::span<const Vec3>, 2> at_;
+  std::size_t ends_;
   std::vector<About> about_;
   std::unique_ptr<Block[]> blocks_;
 };

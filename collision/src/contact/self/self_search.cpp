@@ -18,10 +18,6 @@ using collision::Box;
 constexpr int kRounds = 8, kPartRounds = 4, kPartWait = 8;
 constexpr double kCloseEnough = 1.1;
 
-Box widened(Box box, double by) {
-  return {box.low - Vec3::Constant(by), box.high + Vec3::Constant(by)};
-}
-
 /// Fills a list: parts by their boxes, then by planes, patches of two parts likewise.
 /// What goes straight from one end of its way to another is apart all the way from what it is apart from at
 /// both ends, on the same side.
@@ -34,24 +30,26 @@ class SelfSearch {
         mesh_(model.mesh),
         at_(at),
         after_(after),
-        both_{at, after},
-        ends_(both_.data(), at.data() == after.data() ? 1 : 2),
         before_(before),
         list_(list),
-        parts_(mesh_.corners_of_parts, ends_),
-        patches_(mesh_.corners_of_patches, ends_),
-        open_(mesh_.corners_of_parts.size(), 0) {
+        parts_(mesh_.corners_of_parts, at, after),
+        patches_(mesh_.corners_of_patches, at, after),
+        open_(mesh_.corners_of_parts.size(), 0),
+        normal_(mesh_.patches.size()) {
+    wide_.resize(mesh_.patches.size(), ends());
     parts_.take(0, open_.size());
-    wide_.resize(mesh_.patches.size(), ends_.size());
-    normal_.resize(mesh_.patches.size());
+    for (std::uint32_t p = 0; p < mesh_.patches.size(); ++p)
+      margin_.push_back(model_.of_patch(p, list_.margin));
+    for (std::size_t part = 0; part < open_.size(); ++part) {
+      of_part_.push_back(*std::max_element(margin_.begin() + mesh_.part_begin[part],
+                                           margin_.begin() + mesh_.part_begin[part + 1]));
+      around_.emplace_back();
+      for (std::size_t end = 0; end < ends(); ++end)
+        around_.back().push_back(wide(parts_.box(part, end), of_part_[part]));
+    }
   }
 
   void run() {
-    for (std::uint32_t p = 0; p < mesh_.patches.size(); ++p)
-      margin_.push_back(model_.of_patch(p, list_.margin));
-    for (std::size_t part = 0; part < open_.size(); ++part)
-      of_part_.push_back(*std::max_element(margin_.begin() + mesh_.part_begin[part],
-                                           margin_.begin() + mesh_.part_begin[part + 1]));
     // In an order of their own, not of the trees: sums over groups are the same whatever the boxes were.
     for (const auto& [a, b] : meeting_parts())
       if (!parted(a, b)) look_between(a, b);
@@ -67,6 +65,12 @@ class SelfSearch {
     Mat3 turned;  ///< zero where a face has no area
   };
 
+  std::size_t ends() const { return parts_.ends(); }
+  /// What may come near something in the box, that strays by the margin.
+  Box wide(const Box& box, double margin) const {
+    const Vec3 by = Vec3::Constant(0.5 * model_.meets() + margin);
+    return {box.low - by, box.high + by};
+  }
   /// Patches of a part that is looked into.
   void open(std::uint32_t part) {
     if (std::exchange(open_[part], 1)) return;
@@ -74,22 +78,15 @@ class SelfSearch {
     patches_.take(first, last);
     for (std::uint32_t p = first; p < last; ++p) {
       normal_[p] = normal(p);
-      for (std::size_t end = 0; end < ends_.size(); ++end)
-        wide_.take(p, end, widened(patches_.box(p, end), 0.5 * model_.meets() + margin_[p]));
+      for (std::size_t end = 0; end < ends(); ++end)
+        wide_.take(p, end, wide(patches_.box(p, end), margin_[p]));
     }
-  }
-  /// Where a part is, and what may come near it.
-  std::vector<Box> around(std::uint32_t part) const {
-    std::vector<Box> boxes;
-    for (std::size_t end = 0; end < ends_.size(); ++end)
-      boxes.push_back(widened(parts_.box(part, end), 0.5 * model_.meets() + of_part_[part]));
-    return boxes;
   }
   /// How far two are apart all the way, at least, along each axis.
   /// \param a, b  give the box at an end
   Vec3 gap(const auto& a, const auto& b) const {
     Vec3 before = Vec3::Constant(kInfinite), behind = before;
-    for (std::size_t end = 0; end < ends_.size(); ++end) {
+    for (std::size_t end = 0; end < ends(); ++end) {
       before = before.cwiseMin(b(end).low - a(end).high);
       behind = behind.cwiseMin(a(end).low - b(end).high);
     }
@@ -98,14 +95,14 @@ class SelfSearch {
   using Indices = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Indices> meeting_parts() const {
     std::vector<Box> boxes;
-    for (std::uint32_t part = 0; part < open_.size(); ++part) {
-      const std::vector<Box> wide = around(part);
-      boxes.push_back(collision::join(wide.front(), wide.back()));
-    }
+    for (const std::vector<Box>& part : around_) boxes.push_back(collision::join(part.front(), part.back()));
+    const auto of = [&](std::size_t part) {
+      return [&, part](std::size_t end) -> const Box& { return around_[part][end]; };
+    };
     const collision::BoxTree tree(boxes);
     std::vector<Indices> pairs;
     tree.pairs(tree, [&](std::size_t a, std::size_t b) {
-      if (a < b) pairs.emplace_back(a, b);
+      if (a < b && !(gap(of(a), of(b)).maxCoeff() > 0.0)) pairs.emplace_back(a, b);
     });
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -142,16 +139,11 @@ class SelfSearch {
   }
   /// Patches of two parts, where both are.
   void look_between(std::uint32_t a, std::uint32_t b) {
-    const std::vector<Box> around_a = around(a), around_b = around(b);
-    const auto of = [](const std::vector<Box>& boxes) {
-      return [&](std::size_t end) -> const Box& { return boxes[end]; };
-    };
-    if (gap(of(around_a), of(around_b)).maxCoeff() > 0.0) return;
     open(a);
     open(b);
-    wide_.meeting(around_b, mesh_.part_begin[a], mesh_.part_begin[a + 1], of_first_);
+    wide_.meeting(around_[b], mesh_.part_begin[a], mesh_.part_begin[a + 1], of_first_);
     if (of_first_.empty()) return;
-    wide_.meeting(around_a, mesh_.part_begin[b], mesh_.part_begin[b + 1], of_second_);
+    wide_.meeting(around_[a], mesh_.part_begin[b], mesh_.part_begin[b + 1], of_second_);
     some_.take(wide_, of_second_);
     // What parts two patches parts their neighbours as well, nearly always.
     Direction across{};
@@ -168,8 +160,7 @@ class SelfSearch {
     }
     std::vector<Box> boxes;
     for (std::uint32_t p = 0; p < margin_.size(); ++p)
-      boxes.push_back(widened(collision::join(patches_.box(p, 0), patches_.box(p, ends_.size() - 1)),
-                              0.5 * model_.meets() + margin_[p]));
+      boxes.push_back(wide(collision::join(patches_.box(p, 0), patches_.box(p, ends() - 1)), margin_[p]));
     std::vector<Indices> near;
     const collision::BoxTree tree(boxes);
     tree.pairs(tree, [&](std::size_t a, std::size_t b) {
@@ -286,7 +277,7 @@ class SelfSearch {
       const Direction direction{static_cast<float>(n.x()), static_cast<float>(n.y()),
                                 static_cast<float>(n.z())};
       const PosedSets::Along here = sets.along(p, q, direction, 0);
-      const PosedSets::Along there = ends_.size() == 1 ? here : sets.along(p, q, direction, 1);
+      const PosedSets::Along there = ends() == 1 ? here : sets.along(p, q, direction, 1);
       const Parted now{here.apart, there.apart};
       if (now.least() > best.least()) best = now, across = direction;
       return now.at < now.after ? here.way : there.way;
@@ -324,15 +315,14 @@ class SelfSearch {
   const SelfModel& model_;
   const SelfMesh& mesh_;
   std::span<const Vec3> at_, after_;
-  std::array<std::span<const Vec3>, 2> both_;
-  std::span<const std::span<const Vec3>> ends_;  ///< one where they stay
   const SelfList* before_;
   SelfList& list_;
   PosedSets parts_, patches_;
-  std::vector<char> open_;       ///< per part: its patches are known
-  std::vector<Vec3> normal_;     ///< of patches
-  std::vector<double> margin_;   ///< per patch
-  std::vector<double> of_part_;  ///< per part, the largest
+  std::vector<char> open_;                ///< per part: its patches are known
+  std::vector<Vec3> normal_;              ///< of patches that are known
+  std::vector<double> margin_;            ///< per patch
+  std::vector<double> of_part_;           ///< per part, the largest
+  std::vector<std::vector<Box>> around_;  ///< per part, at the ends, with these
   std::vector<std::vector<Resting>> rest_;
   FloatBoxes wide_;  ///< of all patches, with their margins
   // Of the pair of parts that is looked at: patches where both are, and boxes of the second's.
