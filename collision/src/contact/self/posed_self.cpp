@@ -86,6 +86,7 @@ bool PosedSelf::stays(std::size_t rod) {
 /// curves would cost more than their dynamics.
 void PosedSelf::look() {
   std::vector<std::uint32_t> moving;
+  coarse_.reserve(arms_.size());
   for (std::uint32_t rod = 0; rod < arms_.size(); ++rod)
     if (!stays(rod)) moving.push_back(rod);
   for (const std::uint32_t rod : moving) {

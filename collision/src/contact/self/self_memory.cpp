@@ -16,11 +16,12 @@ namespace {
 // each other, little more than a step.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
 // Ways are so many steps long, and grow by this where they were not left. What strayed from the last ones,
-// and half as much again, is expected of the next, but no more than the margin of what stays, or twice that
-// where it is as little as some ranges. Those that turn so much that vertices may stray by half of their
-// margin are shorter.
-constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kWidest = 2.0,
-                 kBowOfMargin = 0.5;
+// and half as much again, is expected of the next, but no less than two ranges, and no more than the margin
+// of what stays, or twice that where it is as little as some ranges: wider margins have more near each other,
+// narrower ones do not last. Ways that turn so much that vertices may stray by half of their margin are
+// shorter.
+constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kLeastOfRange = 2.0,
+                 kWidest = 2.0, kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
 // A list is made anew where a next step with so many times this one's motion would leave it, or one of so
@@ -62,12 +63,15 @@ class SelfKeeper {
     for (const SelfResponse& meeting : meetings.all) add(meeting);
     sort_by_key(ledger_->meetings);
     ledger_->time = state_.time;
+    ledger_->p.reserve(model_.rods());
+    ledger_->arm.reserve(model_.rods());
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
       const Points p = surface_.masses(rod);
       ledger_->p.emplace_back(p.begin(), p.end());
       ledger_->arm.push_back(surface_.arms(rod));
     }
     ledger_->known.assign(surface_.vertices().begin(), surface_.vertices().end());
+    ledger_->at.reserve(ledger_->known.size());
     for (const std::uint32_t v : ledger_->known) ledger_->at.push_back(surface_.at(v));
     ledger_->placed += static_cast<long>(ledger_->known.size());
     for (const std::uint32_t g : surface_.awake()) measure(surface_.list().groups[g]);
@@ -158,6 +162,8 @@ class SelfKeeper {
       const std::vector<Vec3>& arm = surface_.arms(rod);
       RodWay way{{p.begin(), p.end()}, arm, {}, {}, {}, {}, 0.0};
       std::vector<Vec3> p_there, arm_there;
+      for (std::vector<Vec3>* to : {&way.p_change, &way.arm_change, &p_there, &arm_there})
+        to->reserve(p.size());
       for (std::size_t i = 0; i < p.size(); ++i) {
         way.p_change.push_back(steps * (p[i] - before_->p[rod][i]));
         way.arm_change.push_back(steps * (arm[i] - before_->arm[rod][i]));
@@ -196,9 +202,10 @@ class SelfKeeper {
       const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
       const double parts = ahead_ * step_ / (state_.time - last.from);
       for (const std::uint32_t span : model_.spans_of[rod]) {
-        const double least = kMarginOfRange * model_.law.range;
-        const double most = std::max(margin[span], std::min(kWidest * least, kWidest * margin[span]));
-        margin[span] = std::clamp(kExpected * motions[span] * parts * parts, least, most);
+        const double range = model_.law.range;
+        const double most =
+            std::max(margin[span], std::min(kWidest * kMarginOfRange * range, kWidest * margin[span]));
+        margin[span] = std::clamp(kExpected * motions[span] * parts * parts, kLeastOfRange * range, most);
       }
     }
     return margin;

@@ -115,6 +115,7 @@ std::vector<CurvePair> RodCurves::pairs(const System& system, const State& state
 std::vector<Vec3> RodCurves::arms(const StateView& state, std::size_t rod) const {
   const One& one = rods_.at(rod);
   std::vector<Vec3> arms;
+  arms.reserve(one.by_m.size());
   for (std::size_t i = 0; i < one.by_m.size(); ++i) {
     const Vec3& m = state.m[one.first + i];
     if (m.isZero(0.0))
