@@ -16,11 +16,11 @@ namespace {
 // each other, little more than a step.
 constexpr double kMarginOfRange = 4.0, kMarginOfStep = 14.0, kOfLongStep = 1.5, kOfPatch = 0.1;
 // Ways are so many steps long, and grow by this where they were not left. What strayed from the last ones,
-// and half as much again, is expected of the next, but no less than two ranges, and no more than the margin
-// of what stays, or twice that where it is as little as some ranges: wider margins have more near each other,
+// and half as much again, is expected of the next, but no less than half of what it takes to come out of the
+// range, and no more than twice that or the margin of what stays: wider margins have more near each other,
 // narrower ones do not last. Ways that turn so much that vertices may stray by half of their margin are
 // shorter.
-constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kLeastOfRange = 2.0,
+constexpr double kFewestSteps = 2.25, kMostSteps = 60.0, kLonger = 1.4, kExpected = 1.5, kNarrowest = 0.5,
                  kWidest = 2.0, kBowOfMargin = 0.5;
 // Pairs are kept that may come near within some steps' motion, or some ranges'.
 constexpr double kLeftOfRange = 2.0, kLeftOfStep = 8.0;
@@ -191,7 +191,8 @@ class SelfKeeper {
   }
 
   std::vector<double> margins() {
-    std::vector<double> margin(model_.mesh.spans.size(), kMarginOfRange * model_.law.range);
+    const double of_range = kMarginOfRange * model_.law.range;
+    std::vector<double> margin(model_.mesh.spans.size(), of_range);
     if (!before_) return margin;
     const SelfList& last = *before_->list;
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
@@ -202,10 +203,8 @@ class SelfKeeper {
       const std::span<const double> motions = surface_.motions(rod, PosedSelf::By::curves);
       const double parts = ahead_ * step_ / (state_.time - last.from);
       for (const std::uint32_t span : model_.spans_of[rod]) {
-        const double range = model_.law.range;
-        const double most =
-            std::max(margin[span], std::min(kWidest * kMarginOfRange * range, kWidest * margin[span]));
-        margin[span] = std::clamp(kExpected * motions[span] * parts * parts, kLeastOfRange * range, most);
+        const double most = std::max(margin[span], kWidest * of_range);
+        margin[span] = std::clamp(kExpected * motions[span] * parts * parts, kNarrowest * of_range, most);
       }
     }
     return margin;
