@@ -160,16 +160,14 @@ class SelfKeeper {
     for (std::size_t rod = 0; rod < model_.rods(); ++rod) {
       const Points p = surface_.masses(rod);
       const std::vector<Vec3>& arm = surface_.arms(rod);
-      RodWay way{{p.begin(), p.end()}, arm, {}, {}, {}, {}, 0.0};
-      std::vector<Vec3> p_there, arm_there;
-      for (std::vector<Vec3>* to : {&way.p_change, &way.arm_change, &p_there, &arm_there})
-        to->reserve(p.size());
+      std::vector<Vec3> p_change(p.size()), arm_change(p.size()), p_there(p.size()), arm_there(p.size());
       for (std::size_t i = 0; i < p.size(); ++i) {
-        way.p_change.push_back(steps * (p[i] - before_->p[rod][i]));
-        way.arm_change.push_back(steps * (arm[i] - before_->arm[rod][i]));
-        p_there.push_back(p[i] + way.p_change[i]);
-        arm_there.push_back(arm[i] + way.arm_change[i]);
+        p_change[i] = steps * (p[i] - before_->p[rod][i]);
+        arm_change[i] = steps * (arm[i] - before_->arm[rod][i]);
+        p_there[i] = p[i] + p_change[i];
+        arm_there[i] = arm[i] + arm_change[i];
       }
+      RodWay way{{p.begin(), p.end()}, arm, std::move(p_change), std::move(arm_change), {}, {}, 0.0};
       there.push_back(model_.curve(rod, p_there, arm_there));
       list.ways.push_back(model_.way(rod, surface_.curve(rod), there.back(), std::move(way)));
     }
